@@ -59,20 +59,32 @@ std::optional<Placing> posed_placing(const Part& part, const Posed& posed) {
   return segment ? placing(*segment) : placing(figure->second.joints[part.joint.joint]);
 }
 
+// Where a skin's point is in the world.
+glm::dvec3 bent(const float* from, const modeler::VertexBones& follows, const std::vector<Placing>& bones) {
+  glm::dvec3 place(0);
+  for (std::size_t i = 0; i < modeler::kMostBonesOfVertex; ++i) {
+    if (follows.weight[i] == 0) continue;
+    const Placing& m = bones[follows.bone[i]];
+    for (std::size_t r = 0; r < 3; ++r)
+      place[static_cast<int>(r)] +=
+          follows.weight[i] * (m[4 * r] * from[0] + m[4 * r + 1] * from[1] + m[4 * r + 2] * from[2] + m[4 * r + 3]);
+  }
+  return place;
+}
+
 // Of a skin's lines, in the world.
 Lines bent(const Lines& skin, const std::vector<Placing>& bones) {
-  Lines lines{std::vector<float>(skin.points.size(), 0), skin.ends, skin.dots};
-  for (std::size_t point = 0; point < skin.bones.size(); ++point) {
-    const float* const from = &skin.points[3 * point];
-    const modeler::VertexBones& some = skin.bones[point];
-    for (std::size_t i = 0; i < modeler::kMostBonesOfVertex; ++i) {
-      if (some.weight[i] == 0) continue;
-      const Placing& m = bones[some.bone[i]];
-      for (std::size_t r = 0; r < 3; ++r)
-        lines.points[3 * point + r] +=
-            some.weight[i] * (m[4 * r] * from[0] + m[4 * r + 1] * from[1] + m[4 * r + 2] * from[2] + m[4 * r + 3]);
-    }
-  }
+  Lines lines{{}, skin.ends, skin.dots};
+  const auto add = [&](const glm::dvec3& place) {
+    for (int axis = 0; axis < 3; ++axis) lines.points.push_back(static_cast<float>(place[axis]));
+  };
+  std::vector<glm::dvec3> moved;
+  for (std::size_t point = 0; point < skin.net.points.size(); ++point)
+    moved.push_back(bent(skin.net.points[point].data(), skin.net.bones[point], bones));
+  const std::vector<glm::dvec3> means = modeler::means_of(skin.net, moved);
+  for (const std::uint32_t mean : skin.means) add(means[mean]);
+  for (std::size_t point = 0; point < skin.bones.size(); ++point)
+    add(bent(&skin.points[3 * (skin.means.size() + point)], skin.bones[point], bones));
   return lines;
 }
 

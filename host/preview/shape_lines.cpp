@@ -27,19 +27,22 @@ void add_point(Lines& lines, const glm::dvec3& point) {
 
 class Net {
  public:
-  // `follows`: the bones of each point of a skin, else none.
-  void add(const wire::Patch& patch, std::span<const modeler::VertexBones> follows) {
-    const std::vector<std::uint32_t> numbers = numbers_of(patch.points, follows);
-    for (std::size_t row = 0; row < 4; ++row)
-      for (std::size_t column = 0; column < 3; ++column) {
-        join(numbers[4 * row + column], numbers[4 * row + column + 1]);
-        join(numbers[4 * column + row], numbers[4 * (column + 1) + row]);
-      }
+  void add(const wire::Patch& patch) { join_net(numbers_of(patch.points)); }
+
+  // Of the skin whose net is set().
+  void add(const wire::Patch& patch, const wire::NetPatch& means) {
+    const std::vector<std::uint32_t> numbers = numbers_of(patch.points);
+    for (std::size_t point = 0; point < numbers.size(); ++point)
+      if (numbers[point] == lines_.means.size()) lines_.means.push_back(means[point]);
+    join_net(numbers);
   }
+  void set(modeler::ControlNet net) { lines_.net = std::move(net); }
 
   void add(std::span<const Point> vertices, std::span<const wire::MeshTriangle> triangles,
            std::span<const modeler::VertexBones> follows) {
-    const std::vector<std::uint32_t> numbers = numbers_of(vertices, follows);
+    const std::vector<std::uint32_t> numbers = numbers_of(vertices);
+    for (std::size_t point = 0; point < follows.size(); ++point)
+      if (numbers[point] == lines_.means.size() + lines_.bones.size()) lines_.bones.push_back(follows[point]);
     for (const wire::MeshTriangle& corners : triangles)
       for (std::size_t i = 0; i < 3; ++i) join(numbers[corners[i]], numbers[corners[(i + 1) % 3]]);
   }
@@ -50,13 +53,18 @@ class Net {
   }
 
  private:
-  std::vector<std::uint32_t> numbers_of(std::span<const Point> points, std::span<const modeler::VertexBones> follows) {
+  std::vector<std::uint32_t> numbers_of(std::span<const Point> points) {
     std::vector<std::uint32_t> numbers;
-    for (std::size_t point = 0; point < points.size(); ++point) {
-      numbers.push_back(number_of(points[point]));
-      if (!follows.empty() && numbers.back() == lines_.bones.size()) lines_.bones.push_back(follows[point]);
-    }
+    for (const Point& point : points) numbers.push_back(number_of(point));
     return numbers;
+  }
+
+  void join_net(std::span<const std::uint32_t> numbers) {
+    for (std::size_t row = 0; row < 4; ++row)
+      for (std::size_t column = 0; column < 3; ++column) {
+        join(numbers[4 * row + column], numbers[4 * row + column + 1]);
+        join(numbers[4 * column + row], numbers[4 * (column + 1) + row]);
+      }
   }
 
   std::uint32_t number_of(const Point& point) {
@@ -92,6 +100,42 @@ std::vector<modeler::VertexBones> followed_by(const wire::PackedFilm& film, cons
   return all;
 }
 
+// Gives numbers in the order in which they are first asked for.
+class Numbers {
+ public:
+  std::uint32_t of(std::uint32_t number) {
+    const auto [known, is_new] = known_.try_emplace(number, static_cast<std::uint32_t>(all_.size()));
+    if (is_new) all_.push_back(number);
+    return known->second;
+  }
+  std::span<const std::uint32_t> all() const { return all_; }
+
+ private:
+  std::unordered_map<std::uint32_t, std::uint32_t> known_;
+  std::vector<std::uint32_t> all_;
+};
+
+// How the patches of a shape with a skin bend, by numbers of its own; none of other shapes.
+modeler::ControlNet bent_net(const wire::PackedFilm& film, const wire::Shape& shape) {
+  modeler::ControlNet net;
+  Numbers stencils, points;
+  for (wire::NetPatch patch : film.net_patches_of(shape)) {
+    for (std::uint32_t& stencil : patch) stencil = stencils.of(stencil);
+    net.patches.push_back(patch);
+  }
+  for (const std::uint32_t number : stencils.all()) {
+    const auto terms = film.terms_of(film.stencils()[number]);
+    net.stencils.push_back({static_cast<std::uint32_t>(net.terms.size()), static_cast<std::uint32_t>(terms.size())});
+    for (const wire::StencilTerm& term : terms) net.terms.push_back({points.of(term.point), term.weight});
+  }
+  for (const std::uint32_t number : points.all()) {
+    const wire::NetPoint& point = film.net_points()[number];
+    net.points.push_back(point.place);
+    net.bones.push_back(followed_by(film, point.skin, 1).front());
+  }
+  return net;
+}
+
 // The middle of the box's face that is farthest from the joint, in the unit cube.
 glm::dvec3 far_end(const modeler::Box& sbb) {
   glm::dvec3 end(0.5);
@@ -124,10 +168,11 @@ void add_stick(Lines& lines, const glm::dvec3& end) {
 
 Lines control_net(const wire::PackedFilm& film, const wire::Shape& shape) {
   Net net;
-  for (std::uint32_t i = 0; i < shape.patch_count; ++i)
-    net.add(film.patches()[shape.first_patch + i],
-            shape.bone_count == 0 ? std::vector<modeler::VertexBones>{}
-                                  : followed_by(film, film.patch_skins()[shape.first_skin + i], wire::kPatchPoints));
+  const auto patches = film.patches().subspan(shape.first_patch, shape.patch_count);
+  modeler::ControlNet bent = bent_net(film, shape);
+  for (std::size_t i = 0; i < patches.size(); ++i)
+    bent.patches.empty() ? net.add(patches[i]) : net.add(patches[i], bent.patches[i]);
+  net.set(std::move(bent));
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count))
     net.add(film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count),
             film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count),
@@ -135,10 +180,9 @@ Lines control_net(const wire::PackedFilm& film, const wire::Shape& shape) {
   return net.take();
 }
 
-Lines control_net(std::span<const wire::Patch> patches, std::span<const modeler::PatchBones> bones) {
+Lines control_net(std::span<const wire::Patch> patches) {
   Net net;
-  for (std::size_t patch = 0; patch < patches.size(); ++patch)
-    net.add(patches[patch], bones.empty() ? std::span<const modeler::VertexBones>{} : bones[patch]);
+  for (const wire::Patch& patch : patches) net.add(patch);
   return net.take();
 }
 

@@ -13,8 +13,8 @@ namespace mars::preview {
 // The control points of a shape's patches, joined along u and v, and the vertices of its meshes, joined along edges.
 // Each point and each line once; lines of no length are left out. All points are dots.
 Lines control_net(const wire::PackedFilm& film, const wire::Shape& shape);
-// `bones`: of a skin one a patch, else none.
-Lines control_net(std::span<const wire::Patch> patches, std::span<const modeler::PatchBones> bones);
+// Of patches without a skin.
+Lines control_net(std::span<const wire::Patch> patches);
 
 // The 12 edges of the unit cube, which a T-matrix makes a segment's prism.
 Lines cube_edges();

@@ -22,11 +22,17 @@ MeshletPlacer::MeshletPlacer(simd::InstructionSet set)
 void MeshletPlacer::place(const SegmentPlace& segment, const wire::PackedFilm& film, const wire::Meshlet& meshlet,
                           const shape::Projection& projection) {
   if (!segment.has_skin()) return place(segment.map(), film, meshlet, projection);
+  const bool is_dual = !segment.duals().empty();
   float bones[wire::kMeshletBones][3][4];
+  shape::DualBone<float> duals[wire::kMeshletBones];
   int count = 0;
-  for (const std::uint32_t bone : film.bones_of(meshlet.skin))
-    std::memcpy(bones[count++], segment.bones()[bone].m, sizeof bones[0]);
-  const shape::EyeSkin skin{bones, film.skin_weights().data() + meshlet.skin.first_weight, count, segment.scale()};
+  for (const std::uint32_t bone : film.bones_of(meshlet.skin)) {
+    std::memcpy(bones[count], segment.bones()[bone].m, sizeof bones[0]);
+    if (is_dual) duals[count] = segment.duals()[bone];
+    ++count;
+  }
+  const shape::EyeSkin skin{bones, is_dual ? duals : nullptr, film.skin_weights().data() + meshlet.skin.first_weight,
+                            count, segment.scale()};
   vertex_count_ = static_cast<int>(meshlet.vertex_count);
   kernels_.move_skin(skin, vectors(film.mesh_places().data() + meshlet.first_vertex),
                      vectors(film.mesh_normals().data() + meshlet.first_vertex), vertex_count_, vertices_);

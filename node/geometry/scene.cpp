@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 namespace mars::geometry {
@@ -46,6 +47,22 @@ ShapeBoxes::Box box_of(const wire::PackedFilm& film, std::uint32_t shape) {
   return box;
 }
 
+// Visits the points of nets and meshlets of a shape with a skin, part by part.
+template <typename Visit>
+void visit_skins(const wire::PackedFilm& film, std::uint32_t shape, const Visit& visit) {
+  std::vector<bool> visited(film.net_patches_of(shape).empty() ? 0 : film.net_points().size());
+  for (const wire::NetPatch& patch : film.net_patches_of(shape))
+    for (const std::uint32_t stencil : patch)
+      for (const wire::StencilTerm& term : film.terms_of(film.stencils()[stencil])) {
+        if (visited[term.point]) continue;
+        visited[term.point] = true;
+        const wire::NetPoint& point = film.net_points()[term.point];
+        visit(point.skin, std::span(&point.place, 1));
+      }
+  for (const wire::Meshlet& m : film.meshlets_of(shape))
+    visit(m.skin, film.mesh_places().subspan(m.first_vertex, m.vertex_count));
+}
+
 // `boxes` are of the bones of the skin's segment.
 void take_in_points(const wire::PackedFilm& film, const wire::Skin& skin, std::span<const std::array<float, 3>> points,
                     std::span<ShapeBoxes::Box> boxes) {
@@ -55,6 +72,24 @@ void take_in_points(const wire::PackedFilm& film, const wire::Skin& skin, std::s
       if (weights[point] > 0) take_in(points[point], points[point], boxes[bone]);
     weights = weights.subspan(points.size());
   }
+}
+
+using PairBoxes = std::map<std::array<std::uint32_t, 2>, ShapeBoxes::Box>;
+
+void take_in_pairs(const wire::PackedFilm& film, const wire::Skin& skin, std::span<const std::array<float, 3>> points,
+                   PairBoxes& pairs) {
+  const auto bones = film.bones_of(skin);
+  const auto weights = film.weights_of(skin, static_cast<std::uint32_t>(points.size()));
+  for (std::size_t a = 0; a < bones.size(); ++a)
+    for (std::size_t b = a + 1; b < bones.size(); ++b) {
+      ShapeBoxes::Box box = kEmptyBox;
+      for (std::size_t point = 0; point < points.size(); ++point)
+        if (weights[a * points.size() + point] > 0 && weights[b * points.size() + point] > 0)
+          take_in(points[point], points[point], box);
+      if (box.is_empty()) continue;
+      take_in(std::to_array(box.low), std::to_array(box.high),
+              pairs.try_emplace({bones[a], bones[b]}, kEmptyBox).first->second);
+    }
 }
 
 }  // namespace
@@ -84,19 +119,34 @@ shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSett
 
 ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
   boxes_.reserve(film.shape_count());
-  first_bone_.push_back(0);
+  std::vector<bool> is_dual(film.shape_count());
+  for (const wire::Segment& segment : film.segments())
+    if (segment.blend == wire::Blend::dual_quaternions) is_dual[segment.shape] = true;
   for (std::uint32_t shape = 0; shape < film.shape_count(); ++shape) {
     boxes_.push_back(box_of(film, shape));
-    const std::size_t first = bones_.size();
-    bones_.resize(first + film.shape(shape).bone_count, kEmptyBox);
     first_bone_.push_back(bones_.size());
-    const std::span boxes = std::span(bones_).subspan(first);
-    const auto skins = film.skins_of_patches(shape);
-    for (std::size_t patch = 0; patch < skins.size(); ++patch)
-      take_in_points(film, skins[patch], film.patches_of(shape)[patch].points, boxes);
-    for (const wire::Meshlet& m : film.meshlets_of(shape))
-      take_in_points(film, m.skin, film.mesh_places().subspan(m.first_vertex, m.vertex_count), boxes);
+    first_pair_.push_back(pairs_.size());
+    add_bones(film, shape);
+    if (is_dual[shape]) add_pairs(film, shape);
   }
+  first_bone_.push_back(bones_.size());
+  first_pair_.push_back(pairs_.size());
+}
+
+void ShapeBoxes::add_bones(const wire::PackedFilm& film, std::uint32_t shape) {
+  const std::size_t first = bones_.size();
+  bones_.resize(first + film.shape(shape).bone_count, kEmptyBox);
+  visit_skins(film, shape, [&](const wire::Skin& skin, std::span<const std::array<float, 3>> points) {
+    take_in_points(film, skin, points, std::span(bones_).subspan(first));
+  });
+}
+
+void ShapeBoxes::add_pairs(const wire::PackedFilm& film, std::uint32_t shape) {
+  PairBoxes boxes;
+  visit_skins(film, shape, [&](const wire::Skin& skin, std::span<const std::array<float, 3>> points) {
+    take_in_pairs(film, skin, points, boxes);
+  });
+  for (const auto& [bones, box] : boxes) pairs_.push_back({bones, box});
 }
 
 Scene::Scene(const wire::PackedFilm& film)

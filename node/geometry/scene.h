@@ -27,6 +27,12 @@ class ShapeBoxes {
     bool is_empty() const { return low[0] > high[0]; }
   };
 
+  // Two bones, the lower number first, and the box round what follows both.
+  struct Pair {
+    std::array<std::uint32_t, 2> bones;
+    Box box;
+  };
+
   explicit ShapeBoxes(const wire::PackedFilm& film);
   const Box& of(std::uint32_t shape) const { return boxes_[shape]; }
   // Of a shape with a skin, for each bone round the vertices and points that follow it.
@@ -34,10 +40,19 @@ class ShapeBoxes {
     return std::span(bones_).subspan(first_bone_[shape], first_bone_[shape + 1] - first_bone_[shape]);
   }
 
+  // Of a shape that some segment blends by dual quaternions, each two bones that a point follows; else none.
+  std::span<const Pair> pairs(std::uint32_t shape) const {
+    return std::span(pairs_).subspan(first_pair_[shape], first_pair_[shape + 1] - first_pair_[shape]);
+  }
+
  private:
+  void add_bones(const wire::PackedFilm& film, std::uint32_t shape);
+  void add_pairs(const wire::PackedFilm& film, std::uint32_t shape);
+
   std::vector<Box> boxes_;
   std::vector<Box> bones_;
-  std::vector<std::size_t> first_bone_;  // of each shape, and the end
+  std::vector<Pair> pairs_;
+  std::vector<std::size_t> first_bone_, first_pair_;  // of each shape, and the end
 };
 
 class Scene {

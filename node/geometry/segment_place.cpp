@@ -2,49 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mars::geometry {
 namespace {
 
-// Of a blended place, relative to the largest of what is added up to it, at most: single precision rounds some ten
-// times on the way.
-constexpr double kBlendRounding = 1.0 / (1 << 19);
+wire::Matrix in_doubles(const shape::EyeMatrix& matrix) {
+  wire::Matrix out;
+  for (std::size_t r = 0; r < 3; ++r) std::copy_n(matrix.m[r], 4, out.m[r].begin());
+  return out;
+}
 
-// Along the axes of eye space, round a box that several bones move.
-class MovedBox {
- public:
-  template <typename Corner>
-  void add(const shape::EyeMatrix& bone, const Corner& low, const Corner& high) {
-    for (std::size_t r = 0; r < 3; ++r) {
-      double least = bone.m[r][3], most = least, reach = std::abs(least);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double one = double{bone.m[r][c]} * low[c], other = double{bone.m[r][c]} * high[c];
-        least += std::min(one, other);
-        most += std::max(one, other);
-        reach += std::max(std::abs(one), std::abs(other));
-      }
-      low_[r] = std::min(low_[r], least);
-      high_[r] = std::max(high_[r], most);
-      reach_ = std::max(reach_, reach);
-    }
-  }
-
-  BoxCorners corners() const {
-    const double slack = reach_ * kBlendRounding;
-    BoxCorners out;
-    for (std::size_t k = 0; k < BoxCorners::kCount; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        out.point[k][axis] = static_cast<float>(k >> axis & 1 ? high_[axis] + slack : low_[axis] - slack);
-    return out;
-  }
-
- private:
-  static constexpr double kFar = std::numeric_limits<double>::max();
-
-  double low_[3] = {kFar, kFar, kFar}, high_[3] = {-kFar, -kFar, -kFar};
-  double reach_ = 0;
-};
+BoxCorners corners_of(const SkinBounds::Box& box) {
+  BoxCorners out;
+  for (std::size_t k = 0; k < BoxCorners::kCount; ++k)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      out.point[k][axis] = static_cast<float>((k >> axis & 1 ? box.high : box.low)[axis]);
+  return out;
+}
 
 }  // namespace
 
@@ -77,67 +51,86 @@ BoxCorners corners_of(const shape::EyeMatrix& matrix, const std::array<float, 3>
   return corners;
 }
 
+void EyeBones::begin(wire::Blend blend, std::size_t count) {
+  matrices.resize(count);
+  duals.resize(blend == wire::Blend::dual_quaternions ? count : 0);
+}
+
+void EyeBones::put(std::size_t bone, const shape::EyeMatrix& matrix) {
+  matrices[bone] = matrix;
+  if (!duals.empty()) duals[bone] = shape::rounded(shape::dual_bone(shape::parts_of(in_doubles(matrix))));
+}
+
 shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
-                         std::uint32_t points, std::span<const shape::EyeMatrix> bones) {
+                         std::uint32_t points, const EyeBones& bones) {
   shape::EyeMatrix sum{};
+  shape::DualBlend<float> dual;
+  const bool is_dual = !bones.duals.empty();
   const auto weights = film.weights_of(skin, points);
   std::size_t at = point;
   for (const std::uint32_t bone : film.bones_of(skin)) {
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 4; ++c) sum.m[r][c] += weights[at] * bones[bone].m[r][c];
+    if (is_dual) dual.add(bones.duals[bone], weights[at]);
+    for (int r = 0; r < 3 && !is_dual; ++r)
+      for (int c = 0; c < 4; ++c) sum.m[r][c] += weights[at] * bones.matrices[bone].m[r][c];
     at += points;
   }
+  if (is_dual) dual.put(sum.m);
   return sum;
+}
+
+std::array<float, 3> moved_point(const wire::PackedFilm& film, const wire::NetPoint& point, const EyeBones& bones) {
+  float place[3];
+  shape::to_eye(blended(film, point.skin, 0, 1, bones), point.place, place);
+  return std::to_array(place);
 }
 
 void SegmentPlace::find(const Scene& scene, std::size_t segment) {
   const wire::PackedFilm& film = scene.film();
   shape_ = film.segments()[segment].shape;
-  bones_.clear();
+  bones_.begin(wire::Blend::linear, 0);
   if (film.segments()[segment].bone_count > 0) return find_bones(scene, segment);
   matrix_ = scene.matrix(segment);
   if (film.shape(shape_).meshlet_count > 0) map_ = eye_map(matrix_);
 }
 
 void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
-  bones_.reserve(scene.most_bones());
+  const wire::Segment& of = scene.film().segments()[segment];
+  bones_.matrices.reserve(scene.most_bones());
+  if (of.blend == wire::Blend::dual_quaternions) bones_.duals.reserve(scene.most_bones());
+  bones_.begin(of.blend, of.bone_count);
+  bounds_.begin(of.blend, scene.most_bones());
+  net_.start(scene.film());
   float largest = 0;
-  const std::uint32_t count = scene.film().segments()[segment].bone_count;
-  for (std::uint32_t bone = 0; bone < count; ++bone) {
-    bones_.push_back(scene.bone_matrix(segment, bone));
-    for (const auto& row : bones_.back().m)
+  for (std::uint32_t bone = 0; bone < of.bone_count; ++bone) {
+    bones_.put(bone, scene.bone_matrix(segment, bone));
+    bounds_.add(in_doubles(bones_.matrices[bone]));
+    for (const auto& row : bones_.matrices[bone].m)
       for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(row[c]));
   }
   scale_ = largest > 0 ? std::ldexp(1.0f, -std::clamp(std::ilogb(largest), -100, 100)) : 1;
 }
 
-bool SegmentPlace::mirrors() const { return shape::mirrors(has_skin() ? bones_.front() : matrix_); }
+bool SegmentPlace::mirrors() const { return shape::mirrors(has_skin() ? bones_.matrices.front() : matrix_); }
 
 shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t number) const {
-  const wire::Patch& patch = film.patches_of(shape_)[number];
-  if (!has_skin()) return shape::to_eye(matrix_, patch);
-  const wire::Skin& skin = film.skins_of_patches(shape_)[number];
+  if (!has_skin()) return shape::to_eye(matrix_, film.patches_of(shape_)[number]);
+  const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bones_); };
+  const wire::NetPatch& stencils = film.net_patches_of(shape_)[number];
   shape::EyePatch moved;
-  for (std::uint32_t point = 0; point < wire::kPatchPoints; ++point)
-    shape::to_eye(blended(film, skin, point, wire::kPatchPoints, bones_), patch.points[point], moved.point[point]);
+  for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
+    std::copy_n(net_.bezier(film, stencils[point], move).begin(), 3, moved.point[point]);
   return moved;
 }
 
 BoxCorners SegmentPlace::corners(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const {
   if (!has_skin()) return corners_of(matrix_, meshlet.low, meshlet.high);
-  MovedBox box;
-  for (const std::uint32_t bone : film.bones_of(meshlet.skin)) box.add(bones_[bone], meshlet.low, meshlet.high);
-  return box.corners();
+  return corners_of(bounds_.round(film.bones_of(meshlet.skin), meshlet.low, meshlet.high));
 }
 
 BoxCorners SegmentPlace::corners(const ShapeBoxes& boxes) const {
   const ShapeBoxes::Box& all = boxes.of(shape_);
   if (!has_skin()) return corners_of(matrix_, std::to_array(all.low), std::to_array(all.high));
-  MovedBox moved;
-  const auto of_bones = boxes.of_bones(shape_);
-  for (std::size_t bone = 0; bone < of_bones.size(); ++bone)
-    if (const ShapeBoxes::Box& box = of_bones[bone]; !box.is_empty()) moved.add(bones_[bone], box.low, box.high);
-  return moved.corners();
+  return corners_of(bounds_.round(boxes, shape_));
 }
 
 }  // namespace mars::geometry

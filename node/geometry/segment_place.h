@@ -1,6 +1,5 @@
-// Where a segment is in eye space at its scene's frame: its one matrix moves it, or, where it has a skin, its bones'.
-// What bounds it bounds either: a skin's vertices and patches' points go by sums of matrices whose weights add up to 1,
-// so what lies in a box stays between where its bones move the box.
+// Where a segment is in eye space at its scene's frame: its one matrix moves it, or, where it has a skin, its bones.
+// What bounds it bounds either (skin_bounds.h); Bezier points of nets stay between the nets' points.
 #pragma once
 
 #include <array>
@@ -8,8 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "node/geometry/net_points.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/skin_bounds.h"
 #include "node/shape/bezier.h"
+#include "node/shape/dual_quaternion.h"
 #include "node/wire/film.h"
 
 namespace mars::geometry {
@@ -27,25 +29,39 @@ shape::EyeMap eye_map(const shape::EyeMatrix& matrix);
 BoxCorners corners_of(const shape::EyeMatrix& matrix, const std::array<float, 3>& low,
                       const std::array<float, 3>& high);
 
-// The matrix of point number `point` of `points` that have a skin: the sum of its bones', each times its weight, in the
-// skin's order. It begins with 0, so a bone without weight changes no bit of it, and points that skins with different
-// bones share stay the same.
+// The bones of a segment with a skin, to eye space, as nodes blend them.
+struct EyeBones {
+  std::vector<shape::EyeMatrix> matrices;
+  std::vector<shape::DualBone<float>> duals;  // the same, where dual quaternions are blended; else none
+
+  // Room for `count` bones, whatever they are.
+  void begin(wire::Blend blend, std::size_t count);
+  void put(std::size_t bone, const shape::EyeMatrix& matrix);
+};
+
+// The matrix of point number `point` of `points` that have a skin: the blend of its bones in the skin's order. It
+// begins with 0, so a bone without weight changes no bit of it, and points that skins with different bones share stay
+// the same.
 shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
-                         std::uint32_t points, std::span<const shape::EyeMatrix> bones);
+                         std::uint32_t points, const EyeBones& bones);
+
+// Where bones move a net's point.
+std::array<float, 3> moved_point(const wire::PackedFilm& film, const wire::NetPoint& point, const EyeBones& bones);
 
 class SegmentPlace {
  public:
   // Of the segment, until the next call.
   void find(const Scene& scene, std::size_t segment);
 
-  bool has_skin() const { return !bones_.empty(); }
+  bool has_skin() const { return !bones_.matrices.empty(); }
   bool mirrors() const;  // whether it turns shapes inside out; of a skin, whether its first bone does
   // Of a rigid segment.
   const shape::EyeMatrix& matrix() const { return matrix_; }
   const shape::EyeMap& map() const { return map_; }
   // Of a skin, by number; and EyeSkin::scale, a power of two, with which segments that share vertices give these the
   // same normals.
-  std::span<const shape::EyeMatrix> bones() const { return bones_; }
+  std::span<const shape::EyeMatrix> bones() const { return bones_.matrices; }
+  std::span<const shape::DualBone<float>> duals() const { return bones_.duals; }  // none where the blend is linear
   float scale() const { return scale_; }
 
   // One of its shape's patches, by its number in the shape.
@@ -60,7 +76,9 @@ class SegmentPlace {
   std::uint32_t shape_ = 0;
   shape::EyeMatrix matrix_{};
   shape::EyeMap map_{};
-  std::vector<shape::EyeMatrix> bones_;
+  EyeBones bones_;
+  SkinBounds bounds_;
+  mutable NetPoints<float> net_;  // patches ask for the same points
   float scale_ = 1;
 };
 

@@ -56,14 +56,17 @@ std::array<float, 4> bernstein(float t) {
   return {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
 }
 
-// Where points with a skin are at a frame, seen by its camera.
-void put_moved(const wire::PackedFilm& film, const wire::Segment& segment, const wire::Skin& skin,
-               std::span<const Float3> points, std::uint32_t frame, std::vector<shape::EyeMatrix>& bones,
-               std::vector<Float3>& out) {
-  bones.resize(segment.bone_count);
-  for (const std::uint32_t bone : film.bones_of(skin))
-    bones[bone] =
-        shape::eye_matrix(film.camera_at(frame).world_to_eye, film.matrix_at(film.bones_of(segment)[bone], frame));
+// Bones of a segment at a frame, seen by its camera.
+void put_bones(const wire::PackedFilm& film, const wire::Segment& segment, std::uint32_t frame, EyeBones& bones) {
+  bones.begin(segment.blend, segment.bone_count);
+  for (std::uint32_t bone = 0; bone < segment.bone_count; ++bone)
+    bones.put(bone, shape::eye_matrix(film.camera_at(frame).world_to_eye,
+                                      film.matrix_at(film.bones_of(segment)[bone], frame)));
+}
+
+// Where points with a skin are, as `bones` move them.
+void put_moved(const wire::PackedFilm& film, const wire::Skin& skin, std::span<const Float3> points,
+               const EyeBones& bones, std::vector<Float3>& out) {
   const auto count = static_cast<std::uint32_t>(points.size());
   out.resize(count);
   for (std::uint32_t point = 0; point < count; ++point) {
@@ -211,21 +214,34 @@ void SurfaceView::find_bent(std::uint32_t patch, std::uint32_t segment) const {
   const wire::PackedFilm& film = scene_.film();
   const wire::Segment& of = film.segments()[segment];
   const std::size_t number = patch - scene_.first_patch(segment), patches = film.shape(of.shape).patch_count;
-  const auto put = [&](const wire::Skin& skin, std::span<const Float3> points) {
-    put_moved(film, of, skin, points, frame_, bent_.bones, bent_.now);
-    put_moved(film, of, skin, points, frame_ - 1, bent_.bones, bent_.before);
-  };
+  const std::pair<std::uint32_t, std::vector<Float3>*> frames[] = {{frame_, &bent_.now}, {frame_ - 1, &bent_.before}};
   if (number < patches) {
     static const std::vector<wire::MeshTriangle> kTriangles = triangles_of_net();
-    put(film.skins_of_patches(of.shape)[number], film.patches_of(of.shape)[number].points);
-    put_net(bent_.now);
-    put_net(bent_.before);
+    for (const auto& [frame, out] : frames) put_patch(of, number, frame, *out);
     bent_.triangles = kTriangles;
     return;
   }
   const wire::Meshlet& meshlet = film.meshlets_of(of.shape)[number - patches];
-  put(meshlet.skin, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count));
+  for (const auto& [frame, out] : frames) {
+    put_bones(film, of, frame, bent_.bones);
+    put_moved(film, meshlet.skin, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count), bent_.bones,
+              *out);
+  }
   bent_.triangles = film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count);
+}
+
+// Places on a patch of the segment's shape, see put_net().
+void SurfaceView::put_patch(const wire::Segment& segment, std::size_t number, std::uint32_t frame,
+                            std::vector<Float3>& out) const {
+  const wire::PackedFilm& film = scene_.film();
+  put_bones(film, segment, frame, bent_.bones);
+  bent_.net.start(film);
+  const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bent_.bones); };
+  out.resize(wire::kPatchPoints);
+  const wire::NetPatch& stencils = film.net_patches_of(segment.shape)[number];
+  for (std::size_t point = 0; point < out.size(); ++point)
+    std::copy_n(bent_.net.bezier(film, stencils[point], move).begin(), 3, out[point].begin());
+  put_net(out);
 }
 
 // Where the point was: on the triangle that is nearest to it now.

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "node/geometry/net_points.h"
 #include "node/geometry/scene.h"
 #include "node/geometry/segment_place.h"
 #include "node/geometry/triangle.h"
@@ -41,7 +42,8 @@ class SurfaceView {
     std::optional<std::uint32_t> patch;  // its number; none: there is none yet
     std::vector<std::array<float, 3>> now, before;
     std::span<const wire::MeshTriangle> triangles;
-    std::vector<shape::EyeMatrix> bones;
+    EyeBones bones;
+    NetPoints<float> net;
   };
 
   struct Place {
@@ -55,6 +57,8 @@ class SurfaceView {
   void put_normal(const Triangle& triangle, const Place& place, float* normal) const;
   void put_motion(const Triangle& triangle, const Place& place, std::uint32_t segment, float* motion) const;
   void find_bent(std::uint32_t patch, std::uint32_t segment) const;
+  void put_patch(const wire::Segment& segment, std::size_t number, std::uint32_t frame,
+                 std::vector<std::array<float, 3>>& out) const;
   void put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const;
 
   const Scene& scene_;

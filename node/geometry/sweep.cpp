@@ -69,43 +69,21 @@ Hull corners_of(const Place& low, const Place& high) {
   return corners;
 }
 
-// Round boxes that a skin's bones move, in the world. Vertices go by sums of matrices whose weights add up to 1, so
-// they stay between these boxes; single precision rounds those sums.
-class SkinBox {
- public:
-  void add(const wire::Matrix& bone, const Hull& corners) {
-    for (const Point& corner : corners.all()) {
-      box_.add(moved(bone, corner));
-      for (std::size_t r = 0; r < 3; ++r) {
-        double reach = std::abs(bone.m[r][3]);
-        for (std::size_t a = 0; a < 3; ++a) reach += std::abs(bone.m[r][a] * corner[a]);
-        reach_ = std::max(reach_, reach);
-      }
-    }
-  }
-  Hull corners() const {
-    const Box wide = box_.wider(reach_ * kRounding);
-    return corners_of(wide.low, wide.high);
-  }
+// A skin's bones in the world; `skin` is where they are put.
+void find_bones(const Scene& scene, const wire::Segment& segment, std::uint32_t frame, SkinBounds& skin) {
+  const wire::PackedFilm& film = scene.film();
+  skin.begin(segment.blend, scene.most_bones());
+  for (const wire::Track& bone : film.bones_of(segment)) skin.add(film.matrix_at(bone, frame));
+}
 
- private:
-  static constexpr double kRounding = 1.0 / (1 << 19);  // as of places in segment_place.cpp
-
-  Box box_;
-  double reach_ = 0;
-};
-
-// Where a segment's whole shape is in the world.
-Hull whole_of(const wire::PackedFilm& film, const wire::Segment& segment, std::uint32_t frame,
-              const ShapeBoxes& boxes) {
+// Where a segment's whole shape is in the world. `skin`: room for bones.
+Hull whole_of(const Scene& scene, const wire::Segment& segment, std::uint32_t frame, const ShapeBoxes& boxes,
+              SkinBounds& skin) {
   const ShapeBoxes::Box& all = boxes.of(segment.shape);
-  if (segment.bone_count == 0) return moved(film.matrix_at(segment, frame), corners_of(all.low, all.high));
-  SkinBox skin;
-  const auto of_bones = boxes.of_bones(segment.shape);
-  for (std::size_t bone = 0; bone < of_bones.size(); ++bone)
-    if (const ShapeBoxes::Box& box = of_bones[bone]; !box.is_empty())
-      skin.add(film.matrix_at(film.bones_of(segment)[bone], frame), corners_of(box.low, box.high));
-  return skin.corners();
+  if (segment.bone_count == 0) return moved(scene.film().matrix_at(segment, frame), corners_of(all.low, all.high));
+  find_bones(scene, segment, frame, skin);
+  const SkinBounds::Box box = skin.round(boxes, segment.shape);
+  return corners_of(box.low, box.high);
 }
 
 // What of the picture a hull in eye space may be on.
@@ -167,7 +145,8 @@ class View {
 // The shadows of moving parts on what stands still.
 class Shadows {
  public:
-  Shadows(const Scene& scene, std::uint32_t frame, const ShapeBoxes& boxes, std::size_t casters)
+  // `skin`: room for a segment's bones.
+  Shadows(const Scene& scene, std::uint32_t frame, const ShapeBoxes& boxes, std::size_t casters, SkinBounds& skin)
       : camera_(scene.film().camera_at(frame)), view_(camera_, scene) {
     const wire::PackedFilm& film = scene.film();
     for (const wire::Track& track : film.light_tracks())
@@ -175,7 +154,7 @@ class Shadows {
     Box all;
     for (std::size_t s = 0; s < film.segments().size(); ++s) {
       if (scene.moves(s)) continue;
-      const Hull corners = whole_of(film, film.segments()[s], frame, boxes);
+      const Hull corners = whole_of(scene, film.segments()[s], frame, boxes, skin);
       receivers_.emplace_back().add(corners);
       all.add(corners);
     }
@@ -246,13 +225,12 @@ class Shadows {
 // Hulls in the world round the pieces of segments: round each patch and meshlet, or round a whole shape.
 class Pieces {
  public:
-  // `bones`: room for those of a segment.
-  Pieces(const wire::PackedFilm& film, const ShapeBoxes& boxes, bool are_fine, std::vector<const wire::Matrix*>& bones)
-      : film_(film), boxes_(boxes), are_fine_(are_fine), bones_(bones) {}
+  Pieces(const Scene& scene, const ShapeBoxes& boxes, bool are_fine, SkinScratch& scratch)
+      : scene_(scene), film_(scene.film()), boxes_(boxes), are_fine_(are_fine), scratch_(scratch) {}
 
   template <typename Visit>
   void visit(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
-    if (!are_fine_) return visit(whole_of(film_, segment, frame, boxes_));
+    if (!are_fine_) return visit(whole_of(scene_, segment, frame, boxes_, skin_));
     if (segment.bone_count > 0) return visit_skin(segment, frame, visit);
     const wire::Matrix& matrix = film_.matrix_at(segment, frame);
     for (const wire::Patch& patch : film_.patches_of(segment.shape)) {
@@ -267,40 +245,32 @@ class Pieces {
  private:
   template <typename Visit>
   void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
-    bones_.clear();
-    for (const wire::Track& bone : film_.bones_of(segment)) bones_.push_back(&film_.matrix_at(bone, frame));
-    const auto skins = film_.skins_of_patches(segment.shape);
-    for (std::size_t patch = 0; patch < skins.size(); ++patch)
-      visit(hull_of(film_.patches_of(segment.shape)[patch], skins[patch]));
+    find_bones(scene_, segment, frame, scratch_.bones);
+    scratch_.net.start(film_);
+    for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
-      SkinBox box;
-      for (const std::uint32_t bone : film_.bones_of(meshlet.skin))
-        box.add(*bones_[bone], corners_of(meshlet.low, meshlet.high));
-      visit(box.corners());
+      const SkinBounds::Box box = scratch_.bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high);
+      visit(corners_of(box.low, box.high));
     }
   }
 
-  Hull hull_of(const wire::Patch& patch, const wire::Skin& skin) const {
+  Hull hull_of(const wire::NetPatch& patch) {
     Hull hull;
-    const auto weights = film_.weights_of(skin, wire::kPatchPoints);
-    for (std::size_t point = 0; point < wire::kPatchPoints; ++point) {
-      const Point at_rest{patch.points[point][0], patch.points[point][1], patch.points[point][2]};
-      Point sum{};
-      std::size_t at = point;
-      for (const std::uint32_t bone : film_.bones_of(skin)) {
-        const Point by_bone = moved(*bones_[bone], at_rest);
-        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += double{weights[at]} * by_bone[axis];
-        at += wire::kPatchPoints;
-      }
-      hull.add(sum);
+    const auto move = [&](const wire::NetPoint& point) {
+      return scratch_.bones.place(film_, point.skin, 0, 1, point.place);
+    };
+    for (const std::uint32_t stencil : patch) {
+      const auto& place = scratch_.net.bezier(film_, stencil, move);
+      hull.add({place[0], place[1], place[2]});
     }
     return hull;
   }
 
+  const Scene& scene_;
   const wire::PackedFilm& film_;
   const ShapeBoxes& boxes_;
   bool are_fine_;
-  std::vector<const wire::Matrix*>& bones_;
+  SkinScratch& scratch_;
 };
 
 // Visits each of the frames at which the segment, its material or the camera is another than at the one before.
@@ -365,9 +335,10 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   std::uint64_t pieces = 0;
   for (const std::uint32_t segment : movers) pieces += film.shape(film.segments()[segment].shape).size();
   const bool any_still = movers.size() < film.segments().size();
-  Pieces hulls(film, boxes, any_still && pieces * frames.size() <= kMostHulls, bones_);
+  Pieces hulls(scene, boxes, any_still && pieces * frames.size() <= kMostHulls, scratch_);
   std::optional<Shadows> shadows;
-  if (any_still && scene.casting_count() > 0) shadows.emplace(scene, frames.front(), boxes, movers.size());
+  if (any_still && scene.casting_count() > 0)
+    shadows.emplace(scene, frames.front(), boxes, movers.size(), scratch_.bones);
   for (const std::uint32_t number : movers) {
     const wire::Segment& segment = film.segments()[number];
     Way way(casters_, movers.size() * frames.size() / kMostHulls + 1);

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "node/geometry/line_range.h"
+#include "node/geometry/net_points.h"
 #include "node/geometry/scene.h"
+#include "node/geometry/skin_bounds.h"
 
 namespace mars::geometry {
 
@@ -18,6 +20,12 @@ struct SweptHull {
 
   float along[3][kMostPoints];
   std::uint32_t count;
+};
+
+// Room for what the segment with a skin that is swept takes, in the world.
+struct SkinScratch {
+  SkinBounds bones;
+  NetPoints<double> net;
 };
 
 class Sweep {
@@ -38,7 +46,7 @@ class Sweep {
   void take_in(const LineRange& lines);
 
   std::vector<SweptHull> casters_;
-  std::vector<const wire::Matrix*> bones_;  // of the segment that is swept
+  SkinScratch scratch_;
   LineRange lines_{0, 0};
 };
 

@@ -62,11 +62,21 @@ struct EyeMap {
   float normal[3][3];
 };
 
-// The same of a mesh with a skin: each vertex goes by the sum of its bones' matrices, each times its weight, in the
-// order of the bones, and its normal by the cofactors of that sum.
+// A bone of a skin whose blend is by dual quaternions (dual_quaternion.h): how it turns (w, x, y, z), half its place
+// times that, and what it does before.
+template <typename Number>
+struct DualBone {
+  Number real[4];
+  Number dual[4];
+  Number stretch[3][3];
+};
+
+// The same of a mesh with a skin: each vertex goes by a blend of its bones, in the order of the bones, and its normal
+// by the cofactors of that. The blend is the sum of their matrices, each times its weight, or that of dual quaternions.
 struct EyeSkin {
-  const float (*bones)[3][4];  // to eye space
-  const float* weights;        // bone by bone, of each vertex
+  const float (*bones)[3][4];    // to eye space
+  const DualBone<float>* duals;  // the same bones; nullptr: the blend is linear
+  const float* weights;          // bone by bone, of each vertex
   int bone_count;
   float scale;  // what bones are multiplied by for cofactors, so that squares of cofactors stay far inside a float
 };

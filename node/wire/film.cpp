@@ -22,8 +22,8 @@ constexpr double kLargest = 1e12;  // of any number in a film: squares and produ
 
 // clang-format off
 enum Section : std::size_t {
-  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kPatchSkins, kSkinBones,
-  kSkinWeights, kShapes, kSegments, kBones, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges,
+  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kNetPoints, kStencilTerms,
+  kStencils, kNetPatches, kSkinBones, kSkinWeights, kShapes, kSegments, kBones, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges,
   kIntervals, kMoving, kNames, kSections
 };
 // clang-format on
@@ -80,6 +80,7 @@ bool is_light(const std::array<float, 3>& color) {
 }
 
 constexpr double kWeightRounding = 1e-6;  // of a point's weights, from 1
+constexpr double kMeanRounding = 1e-5;    // of a stencil's
 
 bool is_share(float number) { return number >= 0 && number <= 1; }
 
@@ -187,7 +188,10 @@ void pack_around(const FilmData& film, std::size_t matrices,
     visit(kMeshNormals, film.mesh_normals);
     visit(kMeshTriangles, film.mesh_triangles);
     visit(kMeshlets, film.meshlets);
-    visit(kPatchSkins, film.patch_skins);
+    visit(kNetPoints, film.net_points);
+    visit(kStencilTerms, film.stencil_terms);
+    visit(kStencils, film.stencils);
+    visit(kNetPatches, film.net_patches);
     visit(kSkinBones, film.skin_bones);
     visit(kSkinWeights, film.skin_weights);
     visit(kShapes, film.shapes);
@@ -235,11 +239,16 @@ PackedFilm::PackedFilm(std::span<const std::byte> block, const PackedFilm& base,
   require(settings_->frames == 1, where, "a scene is one moment");
   require(mesh_places_.empty() && mesh_normals_.empty() && mesh_triangles_.empty() && meshlets_.empty(), where,
           "a scene has no meshes");
-  require(patch_skins_.empty() && skin_bones_.empty() && skin_weights_.empty(), where, "a scene has no skins");
-  patch_skins_ = base.patch_skins_;
+  require(net_points_.empty() && stencil_terms_.empty() && stencils_.empty() && net_patches_.empty() &&
+              skin_bones_.empty() && skin_weights_.empty(),
+          where, "a scene has no skins");
+  check_all(where);
+  net_points_ = base.net_points_;
+  stencil_terms_ = base.stencil_terms_;
+  stencils_ = base.stencils_;
+  net_patches_ = base.net_patches_;
   skin_bones_ = base.skin_bones_;
   skin_weights_ = base.skin_weights_;
-  check_all(where);
   mesh_places_ = base.mesh_places_;
   mesh_normals_ = base.mesh_normals_;
   mesh_triangles_ = base.mesh_triangles_;
@@ -259,7 +268,10 @@ void PackedFilm::read(std::span<const std::byte> block, const std::string& where
   read(kMeshNormals, mesh_normals_);
   read(kMeshTriangles, mesh_triangles_);
   read(kMeshlets, meshlets_);
-  read(kPatchSkins, patch_skins_);
+  read(kNetPoints, net_points_);
+  read(kStencilTerms, stencil_terms_);
+  read(kStencils, stencils_);
+  read(kNetPatches, net_patches_);
   read(kSkinBones, skin_bones_);
   read(kSkinWeights, skin_weights_);
   read(kShapes, shapes_);
@@ -289,6 +301,7 @@ void PackedFilm::check_all(const std::string& where) const {
   for (const Track& track : light_tracks_)
     require(sound(track, changes_, lights_.size()), where, "a light's track is broken");
   check_meshlets(where);
+  check_nets(where);
   check_segments(where);
   check_intervals(where);
 }
@@ -302,6 +315,7 @@ void PackedFilm::check_segments(const std::string& where) const {
   for (const Segment& segment : segments_) {
     require(segment.shape < shape_count(), where, "a segment has no such shape");
     require(segment.name < names_.size() && segment.material_name < names_.size(), where, "a segment has no such name");
+    require(segment.blend <= kLastBlend, where, "a segment's blend is unknown");
     require(sound(segment.motion, changes_, matrices_.size()), where, "a segment's motion is broken");
     require(sound(segment.material, changes_, materials_.size()), where, "a segment's material is broken");
     const std::uint32_t bones = shape(segment.shape).bone_count;
@@ -320,11 +334,33 @@ void PackedFilm::check_bones(const Shape& shape, const std::string& where) const
   };
   for (const Meshlet& meshlet : meshlets_.subspan(shape.first_meshlet, shape.meshlet_count)) check_bones(meshlet.skin);
   if (shape.bone_count == 0) return;
-  require(within(shape.first_skin, shape.patch_count, patch_skins_.size()), where, "a shape has no such skins");
-  for (const Skin& skin : patch_skins_.subspan(shape.first_skin, shape.patch_count)) {
-    check_skin(skin, kPatchPoints, where);
-    check_bones(skin);
+  require(within(shape.first_net_patch, shape.patch_count, net_patches_.size()), where, "a shape has no such net");
+  for (const NetPatch& patch : net_patches_of(shape))
+    for (const std::uint32_t stencil : patch)
+      for (const StencilTerm& term : terms_of(stencils_[stencil])) check_bones(net_points_[term.point].skin);
+}
+
+void PackedFilm::check_nets(const std::string& where) const {
+  for (const NetPoint& point : net_points_) {
+    require(sound(point.place), where, "a net's point is not finite");
+    require(point.skin.bone_count >= 1, where, "a net's point follows nothing");
+    check_skin(point.skin, 1, where);
   }
+  for (const Stencil& stencil : stencils_) {
+    require(stencil.term_count >= 1 && stencil.term_count <= kMostTerms &&
+                within(stencil.first_term, stencil.term_count, stencil_terms_.size()),
+            where, "a stencil has no such terms");
+    double sum = 0;
+    std::int64_t last = -1;
+    for (const StencilTerm& term : terms_of(stencil)) {
+      require(term.point < net_points_.size() && term.point > last && term.weight > 0, where, "a term is out of range");
+      sum += term.weight, last = term.point;
+    }
+    require(std::abs(sum - 1) <= kMeanRounding, where, "a stencil's weights do not add up to 1");
+  }
+  for (const NetPatch& patch : net_patches_)
+    for (const std::uint32_t stencil : patch)
+      require(stencil < stencils_.size(), where, "a net's patch has no such stencil");
 }
 
 void PackedFilm::check_intervals(const std::string& where) const {

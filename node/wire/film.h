@@ -28,7 +28,10 @@ struct FilmData {
   std::vector<std::array<float, 3>> mesh_normals;  // to the outside, one a vertex; of any length, 0: none
   std::vector<MeshTriangle> mesh_triangles;
   std::vector<Meshlet> meshlets;
-  std::vector<Skin> patch_skins;
+  std::vector<NetPoint> net_points;
+  std::vector<StencilTerm> stencil_terms;
+  std::vector<Stencil> stencils;
+  std::vector<NetPatch> net_patches;
   std::vector<std::uint32_t> skin_bones;
   std::vector<float> skin_weights;
   std::vector<Shape> shapes;
@@ -51,7 +54,7 @@ std::vector<std::byte> pack(const FilmData& film);
 // The same for a block whose matrices already stand where they belong, `matrices` of them, kMatricesOffset bytes
 // behind its beginning; those of `film` do not count. `resize` gives the block its size without changing what
 // is in it, and returns where it begins.
-inline constexpr std::size_t kMatricesOffset = 384;
+inline constexpr std::size_t kMatricesOffset = 448;
 void pack_around(const FilmData& film, std::size_t matrices,
                  const std::function<std::byte*(std::size_t bytes)>& resize);
 
@@ -77,7 +80,10 @@ class PackedFilm {
   std::span<const std::array<float, 3>> mesh_normals() const { return mesh_normals_; }
   std::span<const MeshTriangle> mesh_triangles() const { return mesh_triangles_; }
   std::span<const Meshlet> meshlets() const { return meshlets_; }
-  std::span<const Skin> patch_skins() const { return patch_skins_; }
+  std::span<const NetPoint> net_points() const { return net_points_; }
+  std::span<const StencilTerm> stencil_terms() const { return stencil_terms_; }
+  std::span<const Stencil> stencils() const { return stencils_; }
+  std::span<const NetPatch> net_patches() const { return net_patches_; }
   std::span<const std::uint32_t> skin_bones() const { return skin_bones_; }
   std::span<const float> skin_weights() const { return skin_weights_; }
   std::span<const Shape> shapes() const { return shapes_; }
@@ -110,9 +116,14 @@ class PackedFilm {
   }
 
   // One a patch; none where the shape has no skin.
-  std::span<const Skin> skins_of_patches(std::uint32_t shape_number) const {
-    const Shape& of = shape(shape_number);
-    return of.bone_count > 0 ? patch_skins_.subspan(of.first_skin, of.patch_count) : std::span<const Skin>{};
+  std::span<const NetPatch> net_patches_of(const Shape& of) const {
+    return of.bone_count > 0 ? net_patches_.subspan(of.first_net_patch, of.patch_count) : std::span<const NetPatch>{};
+  }
+  std::span<const NetPatch> net_patches_of(std::uint32_t shape_number) const {
+    return net_patches_of(shape(shape_number));
+  }
+  std::span<const StencilTerm> terms_of(const Stencil& stencil) const {
+    return stencil_terms_.subspan(stencil.first_term, stencil.term_count);
   }
   std::span<const std::uint32_t> bones_of(const Skin& skin) const {
     return skin_bones_.subspan(skin.first_bone, skin.bone_count);
@@ -147,6 +158,7 @@ class PackedFilm {
   void check_all(const std::string& where) const;
   void check_meshlets(const std::string& where) const;
   void check_bones(const Shape& shape, const std::string& where) const;
+  void check_nets(const std::string& where) const;
   void check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const;
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;
@@ -161,7 +173,10 @@ class PackedFilm {
   std::span<const std::array<float, 3>> mesh_normals_;
   std::span<const MeshTriangle> mesh_triangles_;
   std::span<const Meshlet> meshlets_;
-  std::span<const Skin> patch_skins_;
+  std::span<const NetPoint> net_points_;
+  std::span<const StencilTerm> stencil_terms_;
+  std::span<const Stencil> stencils_;
+  std::span<const NetPatch> net_patches_;
   std::span<const std::uint32_t> skin_bones_;
   std::span<const float> skin_weights_;
   std::span<const Shape> shapes_;

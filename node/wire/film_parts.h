@@ -10,7 +10,7 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 7;
+inline constexpr std::uint32_t kFilmVersion = 8;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostMargin = 8192;       // pixels that are drawn beyond a side of the whole picture
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
@@ -41,9 +41,9 @@ struct Track {
   std::uint32_t count;
 };
 
-// What a meshlet's vertices, or a patch's 16 points, follow: the bones skin_bones[first_bone, first_bone + bone_count),
-// which are numbers among those of a segment, ascending; bone by bone, skin_weights from first_weight on have the
-// weight of each point. A point has kMostPointBones weights above 0 at most, whose sum is 1.
+// What a meshlet's vertices, or a net's point, follow: the bones skin_bones[first_bone, first_bone + bone_count), which
+// are numbers among those of a segment, ascending; bone by bone, skin_weights from first_weight on have the weight of
+// each point. A point has kMostPointBones weights above 0 at most, whose sum is 1.
 struct Skin {
   std::uint32_t first_bone = 0;
   std::uint32_t bone_count = 0;  // 0: it is rigid; of a meshlet kMeshletBones at most
@@ -54,6 +54,33 @@ inline constexpr std::uint32_t kMostPointBones = 4;
 inline constexpr std::uint32_t kPatchPoints = 16;
 inline constexpr std::uint32_t kMeshletBones = 16;
 static_assert(kMeshletBones >= 3 * kMostPointBones);  // any triangle has room
+
+// Patches with a skin. Bones move the control points of a net, of a B-spline surface or a Catmull-Clark cage, in the
+// unit cube; the patches' Bezier points are means of these, so what was smooth stays so however it is bent.
+struct NetPoint {
+  std::array<float, 3> place;
+  Skin skin;  // of one point
+};
+
+// A mean: stencil_terms[first_term, first_term + term_count), ascending by point, with weights above 0 whose sum is 1.
+struct Stencil {
+  std::uint32_t first_term = 0;
+  std::uint32_t term_count = 0;  // 1..kMostTerms
+
+  bool operator==(const Stencil&) const = default;
+};
+
+struct StencilTerm {
+  std::uint32_t point = 0;  // a number of net_points
+  float weight = 0;
+
+  bool operator==(const StencilTerm&) const = default;
+};
+
+inline constexpr std::uint32_t kMostTerms = 256;
+
+// Numbers of stencils, in the order of Patch::points. Neighbours have the same.
+using NetPatch = std::array<std::uint32_t, kPatchPoints>;
 
 // A part of a polygon mesh, of bounded size so that a mesh is divided over nodes as patches are: vertices
 // [first_vertex, first_vertex + vertex_count) of the film's places and normals, and triangles whose corners count from
@@ -76,24 +103,28 @@ inline constexpr std::uint32_t kMeshletTriangles = 128;
 // Numbers of a meshlet's vertices.
 using MeshTriangle = std::array<std::uint8_t, 3>;
 
-// Its patches, then its meshlets; most shapes have one kind. Of a shape with a skin all have bones: its patches those
-// of patch_skins[first_skin, first_skin + patch_count).
+// Its patches, then its meshlets; most shapes have one kind. Of a shape with a skin all have bones; its patches, which
+// are as they stand at rest, bend as net_patches[first_net_patch, first_net_patch + patch_count) do.
 struct Shape {
   std::uint32_t first_patch;
   std::uint32_t patch_count;
   std::uint32_t first_meshlet = 0;
   std::uint32_t meshlet_count = 0;
   std::uint32_t bone_count = 0;  // that a segment of it has at least; 0: it is rigid
-  std::uint32_t first_skin = 0;
+  std::uint32_t first_net_patch = 0;
 
   std::uint64_t size() const { return std::uint64_t{patch_count} + meshlet_count; }
 };
 
+// How a skin's bones are blended at a point: by the sum of their matrices, each times its weight, or by dual
+// quaternions (node/shape/dual_quaternion.h), which keep the volume where bones turn far against each other.
+enum class Blend : std::uint32_t { linear, dual_quaternions };
+inline constexpr Blend kLastBlend = Blend::dual_quaternions;
+
 // One instance of a shape. `motion` gives indices into matrices: T-matrices from the unit cube to the world. Of a shape
 // with a skin they are where the segment's joint would put it if it were rigid; what is drawn follows bones[first_bone,
-// first_bone + bone_count), tracks of such matrices too: a vertex, or a patch's point, goes by the sum of its bones'
-// matrices, each times its weight. `material` gives indices into materials. Patches and meshlets of the whole film are
-// numbered segment by segment.
+// first_bone + bone_count), tracks of such matrices too: a vertex, or a net's point, goes by a blend of its bones.
+// `material` gives indices into materials. Patches and meshlets of the whole film are numbered segment by segment.
 struct Segment {
   std::uint32_t shape;
   std::uint32_t name;  // offset into names
@@ -102,6 +133,7 @@ struct Segment {
   std::uint32_t material_name = 0;  // offset into names: of what it is made of
   std::uint32_t first_bone = 0;
   std::uint32_t bone_count = 0;  // 0: it is rigid
+  Blend blend = Blend::linear;   // of a skin
 };
 
 // What is interpolated over a triangle: its normal, shaded at each sample; or the colours of its vertices; or nothing,

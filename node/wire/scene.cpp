@@ -9,7 +9,7 @@ namespace mars::wire {
 
 std::vector<std::byte> pack_scene(const FilmData& scene) {
   check(scene.settings.frames == 1 && scene.intervals.size() == 1, "a scene is one moment");
-  check(scene.mesh_places.empty() && scene.patch_skins.empty() && scene.skin_weights.empty() && scene.meshlets.empty(),
+  check(scene.mesh_places.empty() && scene.net_points.empty() && scene.skin_weights.empty() && scene.meshlets.empty(),
         "a scene's meshes and skins are the film's");
   return pack(scene);
 }

@@ -5,6 +5,7 @@
 #include <initializer_list>
 #include <numbers>
 
+#include "host/content/film/shape_writer.h"
 #include "host/content/modeler/bspline.h"
 #include "host/content/modeler/primitives.h"
 #include "host/content/modeler/teapot.h"
@@ -174,21 +175,7 @@ std::uint32_t FilmMaker::add_shape(const modeler::Meshlets& mesh) {
   return static_cast<std::uint32_t>(film.shapes.size() - 1);
 }
 
-std::uint32_t FilmMaker::add_shape(const modeler::Shape& skin) {
-  modeler::SkinLists lists;
-  const std::uint32_t number = add_shape(skin.patches), last = modeler::last_bone(skin);
-  film.shapes.back().bone_count = last + 1;
-  film.shapes.back().first_skin = static_cast<std::uint32_t>(film.patch_skins.size());
-  for (const modeler::PatchBones& points : skin.patch_bones) {
-    wire::Skin of_patch = lists.add(points);
-    of_patch.first_bone += static_cast<std::uint32_t>(film.skin_bones.size());
-    of_patch.first_weight += static_cast<std::uint32_t>(film.skin_weights.size());
-    film.patch_skins.push_back(of_patch);
-  }
-  film.skin_bones.insert(film.skin_bones.end(), lists.bones.begin(), lists.bones.end());
-  film.skin_weights.insert(film.skin_weights.end(), lists.weights.begin(), lists.weights.end());
-  return number;
-}
+std::uint32_t FilmMaker::add_shape(const modeler::Shape& skin) { return film::ShapeWriter(film).add(skin); }
 
 std::uint32_t FilmMaker::add_material(const wire::Material& material) {
   film.materials.push_back(material);
@@ -351,23 +338,23 @@ namespace {
 // A tube of patches, open at its ends, along z.
 modeler::Shape patch_tube(std::uint32_t rows, std::uint32_t bones) {
   constexpr std::uint32_t kAround = 6;
-  modeler::PointGrid points;
-  modeler::BoneGrid follows;
+  std::vector<glm::dvec3> points;
+  std::vector<modeler::VertexBones> follows;
   for (std::uint32_t row = 0; row < rows; ++row) {
     const double z = double(row) / (rows - 1);
     std::vector<modeler::BoneWeight> weights;
     for (std::uint32_t bone = 0; bone < bones; ++bone)
       if (const double away = std::abs(z * bones - (bone + 0.5)); away < 1.2) weights.push_back({bone, 1.2 - away});
-    auto& ring = points.emplace_back();
     for (std::uint32_t k = 0; k < kAround; ++k) {
       const double angle = 2 * std::numbers::pi * k / kAround;
-      ring.emplace_back(0.5 + 0.45 * std::cos(angle), 0.5 + 0.45 * std::sin(angle), z);
+      points.emplace_back(0.5 + 0.45 * std::cos(angle), 0.5 + 0.45 * std::sin(angle), z);
     }
-    follows.emplace_back(kAround, *modeler::bones_of_vertex(weights));
+    follows.insert(follows.end(), kAround, *modeler::bones_of_vertex(weights));
   }
   const auto u = modeler::uniform_direction(modeler::Ends::periodic, 3, kAround);
   const auto v = modeler::uniform_direction(modeler::Ends::clamped, 3, rows);
-  return {"tube", modeler::rounded(modeler::bezier_patches(points, u, v)), {}, modeler::bezier_bones(follows, u, v)};
+  const modeler::MeanPatches means = modeler::bezier_means(kAround, rows, u, v);
+  return {"tube", modeler::patches_of(means, points), {}, modeler::control_net(means, points, follows, kAround)};
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(Skins, BendInLiveViews) {
   wire::FilmData scene = film, bent = film;
   scene.patches.clear(), scene.shapes.clear(), scene.meshlets.clear(), scene.mesh_places.clear();
   scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.skin_bones.clear(), scene.skin_weights.clear();
-  scene.patch_skins.clear();
+  scene.net_points.clear(), scene.stencil_terms.clear(), scene.stencils.clear(), scene.net_patches.clear();
   const std::uint32_t bone = film.segments[2].first_bone + 3;
   std::uint32_t& value = bent.changes[bent.bones[bone].first].value;
   wire::Matrix elsewhere = bent.matrices[value];

@@ -53,14 +53,26 @@ bool same_meshlet(const PackedFilm& a, const wire::Meshlet& in_a, const PackedFi
                    b.mesh_triangles().subspan(in_b.first_triangle, in_b.triangle_count));
 }
 
+bool same_stencil(const PackedFilm& a, const wire::Stencil& in_a, const PackedFilm& b, const wire::Stencil& in_b) {
+  return std::ranges::equal(a.terms_of(in_a), b.terms_of(in_b), [&](const auto& one, const auto& other) {
+    const wire::NetPoint &point = a.net_points()[one.point], &same = b.net_points()[other.point];
+    return same_bits(one.weight, other.weight) && same_bits(point.place, same.place) &&
+           same_skin(a, point.skin, b, same.skin, 1);
+  });
+}
+
+bool same_net_patch(const PackedFilm& a, const wire::NetPatch& in_a, const PackedFilm& b, const wire::NetPatch& in_b) {
+  for (std::size_t i = 0; i < in_a.size(); ++i)
+    if (!same_stencil(a, a.stencils()[in_a[i]], b, b.stencils()[in_b[i]])) return false;
+  return true;
+}
+
 bool same_shape(const PackedFilm& a, const wire::Shape& in_a, const PackedFilm& b, const wire::Shape& in_b) {
   if (in_a.meshlet_count != in_b.meshlet_count || in_a.patch_count != in_b.patch_count ||
       in_a.bone_count != in_b.bone_count)
     return false;
   for (std::uint32_t i = 0; i < in_a.patch_count && in_a.bone_count > 0; ++i)
-    if (!same_skin(a, a.patch_skins()[in_a.first_skin + i], b, b.patch_skins()[in_b.first_skin + i],
-                   wire::kPatchPoints))
-      return false;
+    if (!same_net_patch(a, a.net_patches_of(in_a)[i], b, b.net_patches_of(in_b)[i])) return false;
   for (std::uint32_t i = 0; i < in_a.meshlet_count; ++i)
     if (!same_meshlet(a, a.meshlets()[in_a.first_meshlet + i], b, b.meshlets()[in_b.first_meshlet + i])) return false;
   return same_bits(a.patches().subspan(in_a.first_patch, in_a.patch_count),

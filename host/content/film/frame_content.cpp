@@ -31,9 +31,14 @@ void add(Checksum& sum, const wire::PackedFilm& film, const wire::Skin& skin, st
 std::string checksum_of_shape(const wire::PackedFilm& film, const wire::Shape& shape) {
   Checksum sum;
   add(sum, film.patches().subspan(shape.first_patch, shape.patch_count));
-  if (shape.bone_count > 0)
-    for (const wire::Skin& skin : film.patch_skins().subspan(shape.first_skin, shape.patch_count))
-      add(sum, film, skin, wire::kPatchPoints);
+  for (const wire::NetPatch& patch : film.net_patches_of(shape))
+    for (const std::uint32_t stencil : patch)
+      for (const wire::StencilTerm& term : film.terms_of(film.stencils()[stencil])) {
+        const wire::NetPoint& point = film.net_points()[term.point];
+        add(sum, term.weight);
+        add(sum, point.place);
+        add(sum, film, point.skin, 1);
+      }
   for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
     add(sum, meshlet.low);
     add(sum, meshlet.high);

@@ -68,7 +68,10 @@ CompiledFilm compiled_moment(const animator::Film& film, std::uint32_t frame) {
   data.mesh_places = std::move(shapes.parts.mesh_places);
   data.mesh_normals = std::move(shapes.parts.mesh_normals);
   data.mesh_triangles = std::move(shapes.parts.mesh_triangles);
-  data.patch_skins = std::move(shapes.parts.patch_skins);
+  data.net_points = std::move(shapes.parts.net_points);
+  data.stencil_terms = std::move(shapes.parts.stencil_terms);
+  data.stencils = std::move(shapes.parts.stencils);
+  data.net_patches = std::move(shapes.parts.net_patches);
   data.skin_bones = std::move(shapes.parts.skin_bones);
   data.skin_weights = std::move(shapes.parts.skin_weights);
   return compiled(data, film);

@@ -26,7 +26,10 @@ wire::FilmData data_of(const wire::PackedFilm& film) {
   data.mesh_places = copy_of(film.mesh_places());
   data.mesh_normals = copy_of(film.mesh_normals());
   data.mesh_triangles = copy_of(film.mesh_triangles());
-  data.patch_skins = copy_of(film.patch_skins());
+  data.net_points = copy_of(film.net_points());
+  data.stencil_terms = copy_of(film.stencil_terms());
+  data.stencils = copy_of(film.stencils());
+  data.net_patches = copy_of(film.net_patches());
   data.skin_bones = copy_of(film.skin_bones());
   data.skin_weights = copy_of(film.skin_weights());
   data.meshlets = copy_of(film.meshlets());

@@ -28,21 +28,33 @@ std::uint32_t bone_count(const modeler::SkinLists& lists) {
 
 std::uint32_t ShapeWriter::add(const modeler::Shape& shape) {
   if (shape.mesh) return add_mesh(*shape.mesh);
-  return shape.patch_bones.empty() ? add_patches(shape.patches) : add_skin(shape);
+  return shape.net ? add_net(shape) : add_patches(shape.patches);
 }
 
-std::uint32_t ShapeWriter::add_skin(const modeler::Shape& shape) {
-  for (const auto& [known, number] : of_skins_)
-    if (known->patch_bones == shape.patch_bones && bits_of(known->patches) == bits_of(shape.patches)) return number;
+std::uint32_t ShapeWriter::add_net(const modeler::Shape& shape) {
+  const modeler::ControlNet& net = *shape.net;
+  for (const auto& [known, number] : of_nets_)
+    if (*known == net) return number;
+  if (film_.stencil_terms.size() + net.terms.size() > kMost)
+    throw Failure("have more than 4294967295 terms of stencils", "skins", "use fewer or smaller skins");
+  const auto points = static_cast<std::uint32_t>(film_.net_points.size()),
+             terms = static_cast<std::uint32_t>(film_.stencil_terms.size()),
+             stencils = static_cast<std::uint32_t>(film_.stencils.size());
   modeler::SkinLists lists;
-  std::vector<wire::Skin> skins;
-  for (const modeler::PatchBones& points : shape.patch_bones) skins.push_back(placed(lists.add(points)));
-  film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(skins.size()), 0, 0, bone_count(lists),
-                          std::uint32_t(film_.patch_skins.size())});
+  for (std::size_t i = 0; i < net.points.size(); ++i)
+    film_.net_points.push_back({net.points[i], placed(lists.add(std::span(&net.bones[i], 1)))});
+  for (const wire::StencilTerm& term : net.terms) film_.stencil_terms.push_back({points + term.point, term.weight});
+  for (const wire::Stencil& stencil : net.stencils)
+    film_.stencils.push_back({terms + stencil.first_term, stencil.term_count});
+  film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(shape.patches.size()), 0, 0,
+                          bone_count(lists), std::uint32_t(film_.net_patches.size())});
   append(film_.patches, shape.patches);
-  append(film_.patch_skins, skins);
+  for (wire::NetPatch patch : net.patches) {
+    for (std::uint32_t& number : patch) number += stencils;
+    film_.net_patches.push_back(patch);
+  }
   append_lists(lists);
-  return of_skins_.emplace_back(&shape, std::uint32_t(film_.shapes.size() - 1)).second;
+  return of_nets_.emplace_back(&net, std::uint32_t(film_.shapes.size() - 1)).second;
 }
 
 // Behind those that the film has.

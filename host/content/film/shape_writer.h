@@ -23,14 +23,14 @@ class ShapeWriter {
  private:
   std::uint32_t add_patches(const std::vector<wire::Patch>& patches);
   std::uint32_t add_mesh(const modeler::Mesh& mesh);
-  std::uint32_t add_skin(const modeler::Shape& shape);
+  std::uint32_t add_net(const modeler::Shape& shape);
   wire::Skin placed(wire::Skin skin) const;
   void append_lists(const modeler::SkinLists& lists);
 
   wire::FilmData& film_;
   std::unordered_map<std::string_view, std::uint32_t> of_patches_;  // by their bits
   std::vector<std::pair<const modeler::Mesh*, std::uint32_t>> of_meshes_;
-  std::vector<std::pair<const modeler::Shape*, std::uint32_t>> of_skins_;  // of patches
+  std::vector<std::pair<const modeler::ControlNet*, std::uint32_t>> of_nets_;
 };
 
 }  // namespace mars::film

@@ -76,7 +76,8 @@ Object model() {
             .example = R"([{"name": "foot"}, {"name": "knee", "parent": "foot"}])"},
            {.name = "shapes",
             .type = "shapes",
-            .meaning = "object that maps a name to a list of patches, or to an object with `bspline` or `mesh`",
+            .meaning =
+                "object that maps a name to a list of patches, or to an object with `bspline`, `subdivision` or `mesh`",
             .see = "shapes.md#shapes-of-your-own",
             .without = "none"},
            {.name = "limbs",
@@ -236,6 +237,7 @@ Object surface() {
   return {"surface",
           "",
           {{.name = "bspline", .type = "bspline", .meaning = "a B-spline surface"},
+           {.name = "subdivision", .type = "subdivision", .meaning = "a Catmull-Clark surface"},
            {.name = "mesh", .type = "mesh", .meaning = "a polygon mesh"}},
           R"({"minProperties": 1, "maxProperties": 1})"};
 }
@@ -283,6 +285,31 @@ Object direction() {
             .type = "knots",
             .meaning = "numbers that never decrease; with `knots`, leave `ends` out or make it `periodic`",
             .without = "1 apart"}}};
+}
+
+Object subdivision() {
+  return {
+      "subdivision",
+      "",
+      {{.name = "points",
+        .type = "vertices",
+        .meaning = "the cage's points `[x, y, z]` within 0 to 1",
+        .required = true},
+       {.name = "faces",
+        .type = "faces",
+        .meaning = "lists of numbers of different points, counted from 0, counter-clockwise as seen from outside, best "
+                   "quads; an edge belongs to one face or two",
+        .required = true},
+       {.name = "level",
+        .type = "whole",
+        .meaning = "how often each face is divided before a patch is made of each part; 0 for quads alone",
+        .number = 1,
+        .range = {0, 3}},
+       {.name = "bones",
+        .type = "vertex_bones",
+        .meaning = "of a skin: for each point 1 to 4 pairs `[bone, weight, ...]`, as a mesh has them",
+        .see = "model-format.md#skins",
+        .without = "none: the surface is rigid"}}};
 }
 
 Object mesh() {
@@ -403,8 +430,8 @@ std::vector<Object> make_model_objects() {
                   .meaning = "How a surface looks. A number that its reflection does not use is an error.",
                   .keys = material_keys(),
                   .example = kMaterialExample};
-  return {model(),   joint(),   limits(),    segment(), skin(),        limbs(), side(),
-          surface(), bspline(), direction(), mesh(),    proportions(), material};
+  return {model(),   joint(),   limits(),    segment(),     skin(), limbs(),       side(),
+          surface(), bspline(), direction(), subdivision(), mesh(), proportions(), material};
 }
 
 std::span<const Type> model_types() { return kModelTypes; }

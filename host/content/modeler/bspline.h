@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "host/content/modeler/skin_weights.h"
+#include "host/content/modeler/control_net.h"
 #include "node/wire/film_parts.h"
 
 namespace mars::modeler {
@@ -43,12 +43,8 @@ using Net = std::vector<std::array<glm::dvec3, 16>>;
 // One patch for each pair of knot spans, u running first. Neighbours share their four points.
 Net bezier_patches(const PointGrid& points, const SplineDirection& u, const SplineDirection& v);
 
-// Rows of what points follow, as in PointGrid.
-using BoneGrid = std::vector<std::vector<VertexBones>>;
-
-// What the points of bezier_patches() follow: each bone's weights are a spline over those of the control points. Of
-// more than four bones the heaviest.
-std::vector<PatchBones> bezier_bones(const BoneGrid& bones, const SplineDirection& u, const SplineDirection& v);
+// The same patches as means of `rows` of `columns` control points, which are numbered row by row.
+MeanPatches bezier_means(std::size_t columns, std::size_t rows, const SplineDirection& u, const SplineDirection& v);
 
 // As nodes hold them: a coordinate within 0..1 moves by at most 2^-25.
 std::vector<wire::Patch> rounded(const Net& net);

@@ -29,14 +29,19 @@ const Json* own_shape(const Json& model, const std::string& name) {
   return shape == shapes->end() ? nullptr : &*shape;
 }
 
+bool is_subdivision(const Json& shape) { return shape.is_object() && shape.contains("subdivision"); }
+
 bool is_mesh(const Shape& shape) { return shape.mesh.has_value(); }
 
 glm::dvec3 place_of(const Json& point) { return {point[0], point[1], point[2]}; }
 
-void add_points(const Json& bspline, std::vector<ControlPoint>& points) {
-  const Json& rows = bspline["points"];
+void add_rows(const Json& rows, std::vector<ControlPoint>& points) {
   for (std::size_t j = 0; j < rows.size(); ++j)
     for (std::size_t i = 0; i < rows[j].size(); ++i) points.push_back({0, {i, j}, place_of(rows[j][i])});
+}
+
+void add_points(const Json& list, std::vector<ControlPoint>& points) {
+  for (std::size_t i = 0; i < list.size(); ++i) points.push_back({0, {i, 0}, place_of(list[i])});
 }
 
 void add_points(const std::vector<wire::Patch>& patches, std::vector<ControlPoint>& points) {
@@ -62,6 +67,10 @@ Json written(const std::vector<wire::Patch>& patches) {
 // Every point of the shape.
 template <typename Visit>
 void for_each_point(Json& shape, Visit visit) {
+  if (is_subdivision(shape)) {
+    for (Json& point : shape["subdivision"]["points"]) visit(point);
+    return;
+  }
   Json& lists = shape.is_array() ? shape : shape["bspline"]["points"];
   for (Json& list : lists)
     for (Json& point : list) visit(point);
@@ -70,7 +79,10 @@ void for_each_point(Json& shape, Visit visit) {
 Json& point_of(Json& shape, const std::string& joint, const ControlPoint& wanted) {
   const auto [i, j] = wanted.at;
   if (shape.is_array() && wanted.patch < shape.size() && i < 4 && j < 4) return shape[wanted.patch][4 * j + i];
-  if (!shape.is_array() && wanted.patch == 0) {
+  if (is_subdivision(shape)) {
+    Json& points = shape["subdivision"]["points"];
+    if (wanted.patch == 0 && j == 0 && i < points.size()) return points[i];
+  } else if (!shape.is_array() && wanted.patch == 0) {
     Json& rows = shape["bspline"]["points"];
     if (j < rows.size() && i < rows[j].size()) return rows[j][i];
   }
@@ -102,7 +114,9 @@ std::vector<ControlPoint> control_points(const Json& model, const Model& meaning
   std::vector<ControlPoint> points;
   const Json* const own = own_shape(model, shape.name);
   if (own && own->is_object() && own->contains("bspline"))
-    add_points((*own)["bspline"], points);
+    add_rows((*own)["bspline"]["points"], points);
+  else if (own && is_subdivision(*own))
+    add_points((*own)["subdivision"]["points"], points);
   else
     add_points(shape.patches, points);
   return points;

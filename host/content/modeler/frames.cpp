@@ -129,23 +129,23 @@ glm::dvec3 skinned_place(const Mesh::Place& at, const VertexBones& point, std::s
   return place;
 }
 
+std::vector<glm::dvec3> moved_points(const ControlNet& net, std::span<const wire::Matrix> bones) {
+  std::vector<glm::dvec3> moved;
+  for (std::size_t point = 0; point < net.points.size(); ++point)
+    moved.push_back(skinned_place(net.points[point], net.bones[point], bones));
+  return moved;
+}
+
 std::uint32_t last_bone(const Shape& shape) {
   std::uint32_t last = 0;
   const auto look = [&](std::span<const VertexBones> points) { last = std::max(last, all_bones(points).back()); };
   if (shape.mesh) look(shape.mesh->bones);
-  for (const PatchBones& points : shape.patch_bones) look(points);
+  if (shape.net) look(shape.net->bones);
   return last;
 }
 
 std::vector<wire::Patch> bent_patches(const Shape& shape, std::span<const wire::Matrix> bones) {
-  std::vector<wire::Patch> bent = shape.patches;
-  for (std::size_t patch = 0; patch < bent.size(); ++patch)
-    for (std::size_t number = 0; number < wire::kPatchPoints; ++number) {
-      auto& point = bent[patch].points[number];
-      const glm::dvec3 place = skinned_place(point, shape.patch_bones[patch][number], bones);
-      for (int axis = 0; axis < 3; ++axis) point[static_cast<std::size_t>(axis)] = static_cast<float>(place[axis]);
-    }
-  return bent;
+  return patches_of(*shape.net, moved_points(*shape.net, bones));
 }
 
 wire::Matrix t_matrix(const Axes& frame, const Box& sbb) {

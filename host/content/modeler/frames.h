@@ -54,7 +54,9 @@ wire::Matrix blended(const VertexBones& point, std::span<const wire::Matrix> bon
 // Where the point, of the unit cube, then is.
 glm::dvec3 skinned_place(const Mesh::Place& at, const VertexBones& point, std::span<const wire::Matrix> bones);
 
-// The patches of a shape with a skin whose bones have these T-matrices, in the world.
+// Of a net's points, where they then are.
+std::vector<glm::dvec3> moved_points(const ControlNet& net, std::span<const wire::Matrix> bones);
+// The patches of a shape with a net whose bones have these T-matrices, in the world.
 std::vector<wire::Patch> bent_patches(const Shape& shape, std::span<const wire::Matrix> bones);
 
 // The T-matrix, from the unit cube: `frame` after scaling into `sbb`.

@@ -73,6 +73,12 @@ Json mirrored_bspline(Json bspline) {
   return bspline;
 }
 
+Json mirrored_subdivision(Json cage) {
+  mirror_points(cage["points"]);
+  for (Json& face : cage["faces"]) std::reverse(face.begin(), face.end());
+  return cage;
+}
+
 Json mirrored_mesh(Json mesh) {
   mirror_points(mesh["vertices"]);
   for (Json& face : mesh["faces"]) std::reverse(face.begin(), face.end());
@@ -208,6 +214,7 @@ Json mirrored_shape(const Json& shape) {
     return patches;
   }
   if (shape.contains("bspline")) return {{"bspline", mirrored_bspline(shape["bspline"])}};
+  if (shape.contains("subdivision")) return {{"subdivision", mirrored_subdivision(shape["subdivision"])}};
   return {{"mesh", mirrored_mesh(shape["mesh"])}};
 }
 

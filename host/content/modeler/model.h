@@ -10,7 +10,7 @@
 #include "host/content/modeler/limbs.h"
 #include "host/content/modeler/material.h"
 #include "host/content/modeler/mesh.h"
-#include "host/content/modeler/skin_weights.h"
+#include "host/content/modeler/control_net.h"
 #include "node/wire/film.h"
 
 namespace mars::modeler {
@@ -20,9 +20,9 @@ struct Shape {
   std::string name;
   std::vector<wire::Patch> patches;
   std::optional<Mesh> mesh{};
-  std::vector<PatchBones> patch_bones{};  // of a skin, one a patch; else none
+  std::optional<ControlNet> net{};  // of a skin of patches: how these bend
 
-  bool has_skin() const { return !patch_bones.empty() || (mesh && !mesh->bones.empty()); }
+  bool has_skin() const { return net || (mesh && !mesh->bones.empty()); }
 };
 
 // The greatest number of a bone that a shape with a skin has.

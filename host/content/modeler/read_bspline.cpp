@@ -26,15 +26,15 @@ PointGrid read_points(const document::Element& element) {
   return rows;
 }
 
-BoneGrid read_bones(const document::Element& list, const PointGrid& points) {
+// Row by row.
+std::vector<VertexBones> read_bones(const document::Element& list, const PointGrid& points) {
   document::require_size(list, points.size());
-  BoneGrid rows;
-  for (const document::Element item : list) {
-    document::require_size(item, points[0].size());
-    auto& row = rows.emplace_back();
-    for (const document::Element point : item) row.push_back(read_vertex_bones(point));
+  std::vector<VertexBones> bones;
+  for (const document::Element row : list) {
+    document::require_size(row, points[0].size());
+    for (const document::Element point : row) bones.push_back(read_vertex_bones(point));
   }
-  return rows;
+  return bones;
 }
 
 // How often the knot number `i` stands, knots ascending; where they are periodic, first and last are one.
@@ -113,13 +113,18 @@ SplineDirection read_direction(const document::Fields& surface, std::string_view
 
 }  // namespace
 
-SplineShape read_bspline(const document::Element& element) {
+PatchShape read_bspline(const document::Element& element) {
   const document::Fields fields(element, keys::object("bspline"));
   const PointGrid points = read_points(fields.required("points"));
   const SplineDirection u = read_direction(fields, "u", points[0].size());
   const SplineDirection v = read_direction(fields, "v", points.size());
-  SplineShape shape{rounded(bezier_patches(points, u, v)), {}};
-  if (const auto bones = fields.find("bones")) shape.bones = bezier_bones(read_bones(*bones, points), u, v);
+  PatchShape shape{rounded(bezier_patches(points, u, v))};
+  if (const auto bones = fields.find("bones")) {
+    const std::size_t columns = points[0].size();
+    std::vector<glm::dvec3> all;
+    for (const auto& row : points) all.insert(all.end(), row.begin(), row.end());
+    shape.net = control_net(bezier_means(columns, points.size(), u, v), all, read_bones(*bones, points), columns);
+  }
   return shape;
 }
 

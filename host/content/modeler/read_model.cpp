@@ -16,6 +16,7 @@
 #include "host/content/modeler/proportions.h"
 #include "host/content/modeler/read_bspline.h"
 #include "host/content/modeler/read_mesh.h"
+#include "host/content/modeler/read_subdivision.h"
 #include "host/content/modeler/shape_library.h"
 
 namespace mars::modeler {
@@ -54,12 +55,14 @@ std::vector<wire::Patch> read_patches(const document::Element& list) {
 Shape read_own_shape(const std::string& name, const document::Element& element) {
   if (element.kind() != document::Kind::object) return {name, read_patches(element), {}};
   const document::Fields fields(element, keys::object("surface"));
-  const auto bspline = fields.find("bspline"), mesh = fields.find("mesh");
-  if (bspline.has_value() == mesh.has_value())
-    element.refuse(mesh ? "is both a bspline and a mesh" : "is neither a bspline nor a mesh", "give it one of them");
+  const auto bspline = fields.find("bspline"), subdivision = fields.find("subdivision"), mesh = fields.find("mesh");
+  const int kinds = bspline.has_value() + subdivision.has_value() + mesh.has_value();
+  if (kinds != 1)
+    element.refuse(kinds > 1 ? "is several kinds of surface" : "is no bspline, subdivision or mesh",
+                   "give it one of bspline, subdivision and mesh");
   if (mesh) return {name, {}, read_mesh(*mesh)};
-  SplineShape spline = read_bspline(*bspline);
-  return {name, std::move(spline.patches), {}, std::move(spline.bones)};
+  PatchShape surface = bspline ? read_bspline(*bspline) : read_subdivision(*subdivision);
+  return {name, std::move(surface.patches), {}, std::move(surface.net)};
 }
 
 class ModelReader {
@@ -263,7 +266,7 @@ class ModelReader {
       const auto skin = fields.find("skin");
       if (skin && !follows)
         skin->refuse("belongs to a shape with bones, which this one is not",
-                     "give its mesh or bspline `bones`, or take it out");
+                     "give its mesh, bspline or subdivision `bones`, or take it out");
       if (!skin && follows)
         fields.find("shape")->refuse("has bones, but the segment has no skin",
                                      "name the bones: \"skin\": {\"joints\": [\"hip\", \"knee\"]}");

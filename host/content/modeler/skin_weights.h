@@ -1,4 +1,4 @@
-// What points of skins follow: the vertices of a mesh, or the control points of patches.
+// What points of skins follow: the vertices of a mesh, or the control points of a net.
 #pragma once
 
 #include <array>
@@ -24,9 +24,6 @@ struct VertexBones {
 
   auto operator<=>(const VertexBones&) const = default;
 };
-
-// Of a patch's control points.
-using PatchBones = std::array<VertexBones, wire::kPatchPoints>;
 
 struct BoneWeight {
   std::uint32_t bone;

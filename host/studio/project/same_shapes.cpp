@@ -14,8 +14,7 @@ bool same_model(const modeler::Model& one, const modeler::Model& two) {
 }  // namespace
 
 bool same_shape(const modeler::Shape& one, const modeler::Shape& two) {
-  return std::ranges::equal(one.patches, two.patches, same_patch) && one.mesh == two.mesh &&
-         one.patch_bones == two.patch_bones;
+  return std::ranges::equal(one.patches, two.patches, same_patch) && one.mesh == two.mesh && one.net == two.net;
 }
 
 bool same_segments(const modeler::Model& one, const modeler::Model& two) {
@@ -40,7 +39,7 @@ std::optional<std::size_t> pulled_shape(const modeler::Model& one, const modeler
   for (std::size_t shape = 0; shape < one.shapes.size(); ++shape) {
     if (same_shape(one.shapes[shape], two.shapes[shape])) continue;
     if (pulled || one.shapes[shape].mesh || one.shapes[shape].patches.size() != two.shapes[shape].patches.size() ||
-        one.shapes[shape].patch_bones != two.shapes[shape].patch_bones)
+        one.shapes[shape].net || two.shapes[shape].net)
       return std::nullopt;
     pulled = shape;
   }

@@ -138,12 +138,9 @@ void add_bent(const modeler::Model& model, std::size_t joint, std::span<const wi
   const std::size_t vertices = shape.mesh ? shape.mesh->vertices.size() : 0;
   for (std::size_t vertex = 0; vertex < vertices; vertex += 1 + vertices / kMostPoints)
     places.push_back(modeler::skinned_place(shape.mesh->vertices[vertex], shape.mesh->bones[vertex], bones));
-  const std::size_t points = shape.patch_bones.size() * wire::kPatchPoints;
-  for (std::size_t point = 0; point < points; point += 1 + points / kMostPoints) {
-    const std::size_t patch = point / wire::kPatchPoints, number = point % wire::kPatchPoints;
-    places.push_back(
-        modeler::skinned_place(shape.patches[patch].points[number], shape.patch_bones[patch][number], bones));
-  }
+  if (!shape.net) return;
+  const std::vector<glm::dvec3> means = modeler::means_of(*shape.net, modeler::moved_points(*shape.net, bones));
+  for (std::size_t mean = 0; mean < means.size(); mean += 1 + means.size() / kMostPoints) places.push_back(means[mean]);
 }
 
 }  // namespace

@@ -151,22 +151,26 @@ class Maker {
     const auto& segment = model.joints[*selection_.joint].segment;
     if (!segment) return;
     const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
-    const auto& patches = model.shapes[segment->shape].patches;
+    const modeler::Shape& shape = model.shapes[segment->shape];
     std::set<std::array<float, 3>> seen;
-    for (std::size_t patch = 0; patch < patches.size() && seen.size() < kMostPoints; ++patch)
-      for (std::size_t number = 0; number < 16; ++number) {
-        const auto& point = patches[patch].points[number];
-        if (!seen.insert(point).second) continue;
-        Handle handle{"point:" + std::to_string(patch) + ":" + std::to_string(number), "point", {}};
-        handle.grip = Grip{Grip::What::point, 0, 0, patch, number % 4, number / 4};
-        const wire::Matrix matrix = matrix_of_point(model, *selection_.joint, state, *handle.grip);
-        glm::dvec3 place;
-        for (int row = 0; row < 3; ++row) {
-          const auto& m = matrix.m[static_cast<std::size_t>(row)];
-          place[row] = m[0] * point[0] + m[1] * point[1] + m[2] * point[2] + m[3];
-        }
-        add_place(std::move(handle), place);
+    const auto add = [&](std::size_t patch, std::size_t number, std::size_t columns, const auto& point) {
+      if (seen.size() >= kMostPoints || !seen.insert(point).second) return;
+      Handle handle{"point:" + std::to_string(patch) + ":" + std::to_string(number), "point", {}};
+      handle.grip = Grip{Grip::What::point, 0, 0, patch, number % columns, number / columns};
+      const wire::Matrix matrix = matrix_of_point(model, *selection_.joint, state, *handle.grip);
+      glm::dvec3 place;
+      for (int row = 0; row < 3; ++row) {
+        const auto& m = matrix.m[static_cast<std::size_t>(row)];
+        place[row] = m[0] * point[0] + m[1] * point[1] + m[2] * point[2] + m[3];
       }
+      add_place(std::move(handle), place);
+    };
+    if (shape.net)
+      for (std::size_t number = 0; number < shape.net->points.size(); ++number)
+        add(0, number, shape.net->columns, shape.net->points[number]);
+    else
+      for (std::size_t patch = 0; patch < shape.patches.size(); ++patch)
+        for (std::size_t number = 0; number < 16; ++number) add(patch, number, 4, shape.patches[patch].points[number]);
   }
 
   const Project& project_;
@@ -180,8 +184,8 @@ class Maker {
 wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, const animator::ActorState& state,
                              const Grip& point) {
   const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
-  if (shape.patch_bones.empty()) return state.segments[joint].value();
-  return modeler::blended(shape.patch_bones[point.patch][4 * point.j + point.i], state.bones[joint]);
+  if (!shape.net) return state.segments[joint].value();
+  return modeler::blended(shape.net->bones[shape.net->columns * point.j + point.i], state.bones[joint]);
 }
 
 TurnAxis Posed::axis(int number) const {

@@ -132,7 +132,7 @@ std::uint32_t LinePictures::net_of(std::size_t segment, preview::Wireframe& wire
   if (pulled(segment)) {
     const auto pulled = *project_.pulled();
     const modeler::Shape& shape = project_.film().models[pulled.model].shapes[pulled.shape];
-    wireframe.lines[0] = preview::control_net(shape.patches, shape.patch_bones);
+    wireframe.lines[0] = preview::control_net(shape.patches);
     return 0;
   }
   const wire::PackedFilm film(*moments_.film_block(), "", true);

@@ -49,7 +49,10 @@ void Moments::load_shapes() {
   film.mesh_places = parts.mesh_places;
   film.mesh_normals = parts.mesh_normals;
   film.mesh_triangles = parts.mesh_triangles;
-  film.patch_skins = parts.patch_skins;
+  film.net_points = parts.net_points;
+  film.stencil_terms = parts.stencil_terms;
+  film.stencils = parts.stencils;
+  film.net_patches = parts.net_patches;
   film.skin_bones = parts.skin_bones;
   film.skin_weights = parts.skin_weights;
   film.meshlets = parts.meshlets;
@@ -79,9 +82,6 @@ void Moments::put_pulled(wire::FilmData& moment) const {
   const animator::Film& film = project_.film();
   moment.patches = film.models[pulled->model].shapes[pulled->shape].patches;
   moment.shapes = {{0, static_cast<std::uint32_t>(moment.patches.size())}};
-  const wire::Shape& whole = shapes_.parts.shapes[shapes_.numbers[pulled->model][pulled->shape]];
-  moment.shapes.front().bone_count = whole.bone_count;
-  moment.shapes.front().first_skin = whole.first_skin;
   std::size_t segment = 0;
   for (const animator::Actor& actor : film.actors)
     for (const modeler::Joint& joint : film.models[actor.model].joints) {
@@ -118,13 +118,14 @@ std::vector<std::array<float, 3>> Moments::bent_places(std::size_t segment, cons
 }
 
 std::vector<wire::Patch> Moments::bent_patches(std::size_t segment) const {
-  const auto patches = patches_of(segment);
-  const std::size_t first = shape_of(segment).first_skin;
-  std::vector<wire::Patch> all(patches.begin(), patches.end());
-  for (std::size_t patch = 0; patch < all.size(); ++patch)
-    std::ranges::copy(bent(segment, shapes_.parts.patch_skins[first + patch], patches[patch].points),
-                      all[patch].points.begin());
-  return all;
+  const auto [actor, joint] = owners_[segment];
+  const modeler::Model& model = project_.film().model_of(actor);
+  const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
+  if (!shape.net) return {};
+  std::vector<wire::Matrix> bones;
+  for (std::uint32_t bone = 0; bone < now_->segments[segment].bone_count; ++bone)
+    bones.push_back(bone_of(now_->segments[segment], bone));
+  return modeler::bent_patches(shape, bones);
 }
 
 const wire::Shape& Moments::shape_of(std::size_t segment) const {

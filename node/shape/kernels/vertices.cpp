@@ -92,21 +92,9 @@ void move(const EyeMap& map, const float (*places)[3], const float (*normals)[3]
 
 namespace {
 
-// The sum of bones' matrices times their weights. It begins with 0 and so is never -0: a bone without weight changes
-// none of its bits, and vertices that meshlets with different bones share stay the same.
-struct Blended {
+// By which vertices of a skin go.
+struct Bent {
   Floats m[3][4];
-
-  Blended(const EyeSkin& skin, int count, int at) {
-    for (auto& row : m)
-      for (Floats& number : row) number = hn::Zero(kFloats);
-    for (int bone = 0; bone < skin.bone_count; ++bone) {
-      const Floats weight = hn::LoadU(kFloats, skin.weights + bone * count + at);
-      if (hn::AllTrue(kFloats, hn::Eq(weight, hn::Zero(kFloats)))) continue;
-      for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 4; ++c) m[r][c] = hn::Add(m[r][c], hn::Mul(weight, constant(skin.bones[bone][r][c])));
-    }
-  }
 
   // Row r of the cofactors of its linear part times `scale`.
   void cofactors(int r, Floats scale, Floats (&row)[3]) const {
@@ -120,10 +108,84 @@ struct Blended {
   }
 };
 
-}  // namespace
+// Visits the bones that any of the vertices from `at` on follows, with their weights.
+template <typename Visit>
+void visit_bones(const EyeSkin& skin, int count, int at, const Visit& visit) {
+  for (int bone = 0; bone < skin.bone_count; ++bone) {
+    const Floats weight = hn::LoadU(kFloats, skin.weights + bone * count + at);
+    if (!hn::AllTrue(kFloats, hn::Eq(weight, hn::Zero(kFloats)))) visit(bone, weight);
+  }
+}
 
-void move_skin(const EyeSkin& skin, const float (*places)[3], const float (*normals)[3], int count,
-               const Vertices& out) {
+Floats times(Floats weight, float number) { return hn::Mul(weight, constant(number)); }
+
+// The sum of bones' matrices times their weights. It begins with 0 and so is never -0: a bone without weight changes
+// none of its bits, and vertices that meshlets with different bones share stay the same.
+struct LinearBlend : Bent {
+  LinearBlend(const EyeSkin& skin, int count, int at) {
+    for (auto& row : m)
+      for (Floats& number : row) number = hn::Zero(kFloats);
+    visit_bones(skin, count, at, [&](int bone, Floats weight) {
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 4; ++c) m[r][c] = hn::Add(m[r][c], times(weight, skin.bones[bone][r][c]));
+    });
+  }
+};
+
+// As shape::DualBlend<float>, number for number.
+struct DualQuaternionBlend : Bent {
+  DualQuaternionBlend(const EyeSkin& skin, int count, int at) {
+    Floats real[4], dual[4], stretch[3][3];
+    for (Floats& number : real) number = hn::Zero(kFloats);
+    for (Floats& number : dual) number = hn::Zero(kFloats);
+    for (auto& row : stretch)
+      for (Floats& number : row) number = hn::Zero(kFloats);
+    visit_bones(skin, count, at, [&](int number, Floats weight) {
+      const DualBone<float>& bone = skin.duals[number];
+      const Floats xy = hn::Add(times(real[0], bone.real[0]), times(real[1], bone.real[1]));
+      const Floats along = hn::Add(hn::Add(xy, times(real[2], bone.real[2])), times(real[3], bone.real[3]));
+      const Floats turned = hn::IfThenElse(hn::Lt(along, hn::Zero(kFloats)), hn::Neg(weight), weight);
+      for (int i = 0; i < 4; ++i) real[i] = hn::Add(real[i], times(turned, bone.real[i]));
+      for (int i = 0; i < 4; ++i) dual[i] = hn::Add(dual[i], times(turned, bone.dual[i]));
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) stretch[r][c] = hn::Add(stretch[r][c], times(weight, bone.stretch[r][c]));
+    });
+    const Floats square = hn::Add(sum_of_squares(real[0], real[1], real[2]), hn::Mul(real[3], real[3]));
+    const Floats two = hn::Div(constant(2.0f), square);
+    put_linear(real, two, stretch);
+    put_place(real, two, dual);
+  }
+
+ private:
+  void put_linear(const Floats (&real)[4], Floats two, const Floats (&stretch)[3][3]) {
+    const Floats one = constant(1.0f);
+    const Floats w = real[0], x = real[1], y = real[2], z = real[3];
+    const Floats x2 = hn::Mul(x, two), y2 = hn::Mul(y, two), z2 = hn::Mul(z, two);
+    const Floats xx = hn::Mul(x, x2), yy = hn::Mul(y, y2), zz = hn::Mul(z, z2), xy = hn::Mul(x, y2),
+                 xz = hn::Mul(x, z2), yz = hn::Mul(y, z2), wx = hn::Mul(w, x2), wy = hn::Mul(w, y2),
+                 wz = hn::Mul(w, z2);
+    const Floats turn[3][3] = {{hn::Sub(one, hn::Add(yy, zz)), hn::Sub(xy, wz), hn::Add(xz, wy)},
+                               {hn::Add(xy, wz), hn::Sub(one, hn::Add(xx, zz)), hn::Sub(yz, wx)},
+                               {hn::Sub(xz, wy), hn::Add(yz, wx), hn::Sub(one, hn::Add(xx, yy))}};
+    for (int c = 0; c < 3; ++c) {
+      const Floats column[3] = {stretch[0][c], stretch[1][c], stretch[2][c]};
+      for (int r = 0; r < 3; ++r) m[r][c] = product(turn[r], column);
+    }
+  }
+
+  void put_place(const Floats (&real)[4], Floats two, const Floats (&dual)[4]) {
+    for (int r = 0; r < 3; ++r) {
+      const int next = 1 + (r + 1) % 3, last = 1 + (r + 2) % 3;
+      const Floats straight = cross_term(real[0], dual[1 + r], dual[0], real[1 + r]);
+      const Floats across = cross_term(real[next], dual[last], real[last], dual[next]);
+      m[r][3] = hn::Mul(hn::Add(straight, across), two);
+    }
+  }
+};
+
+template <typename Blended>
+void move_blended(const EyeSkin& skin, const float (*places)[3], const float (*normals)[3], int count,
+                  const Vertices& out) {
   const Floats scale = constant(skin.scale);
   for (int k = 0; k < count; k += kLanes) {
     const Blended blended(skin, count, k);
@@ -139,6 +201,14 @@ void move_skin(const EyeSkin& skin, const float (*places)[3], const float (*norm
     }
     store_unit(turned, k, out.normal);
   }
+}
+
+}  // namespace
+
+void move_skin(const EyeSkin& skin, const float (*places)[3], const float (*normals)[3], int count,
+               const Vertices& out) {
+  if (skin.duals != nullptr) return move_blended<DualQuaternionBlend>(skin, places, normals, count, out);
+  move_blended<LinearBlend>(skin, places, normals, count, out);
 }
 
 bool project(const Projection& p, const Vertices& v, int count) {

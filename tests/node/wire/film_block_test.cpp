@@ -35,7 +35,10 @@ TEST(FilmBlock, IsReadAsItWasPacked) {
     expect_same(film.mesh_places, view.mesh_places());
     expect_same(film.mesh_normals, view.mesh_normals());
     expect_same(film.mesh_triangles, view.mesh_triangles());
-    expect_same(film.patch_skins, view.patch_skins());
+    expect_same(film.net_points, view.net_points());
+    expect_same(film.stencil_terms, view.stencil_terms());
+    expect_same(film.stencils, view.stencils());
+    expect_same(film.net_patches, view.net_patches());
     expect_same(film.skin_bones, view.skin_bones());
     expect_same(film.skin_weights, view.skin_weights());
     expect_same(film.meshlets, view.meshlets());

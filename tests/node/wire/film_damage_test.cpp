@@ -83,10 +83,18 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 0; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].patch_count = 2; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].first_skin = 1; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].bone_count = 0; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].bone_count = 3; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.patch_skins[0].first_weight = 7; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].first_net_patch = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_points[1].skin.bone_count = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_points[1].skin.bone_count = 3; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_points[1].skin.first_weight = 7; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_points[0].place[1] = std::nanf(""); }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.stencils[1].term_count = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.stencils[1].first_term = 3; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.stencil_terms[2].point = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.stencil_terms[1].point = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0][15] = 2; }));
+  for (const float weight : {-0.5f, 0.0f, 0.7f, std::nanf("")})
+    EXPECT_TRUE(refused([weight](FilmData& f) { f.stencil_terms[1].weight = weight; })) << weight;
   EXPECT_TRUE(refused([](FilmData& f) { f.skin_weights.back() = 0.4f; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[1].bone_count = 2; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.first_bone = 1; }));

@@ -30,8 +30,12 @@ inline FilmData small_film() {
   film.meshlets = {{0, 4, 0, 2, {0, 0, 0}, {1, 1, 0.5f}},
                    {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}},
                    {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}, {0, 2, 0}}};
-  film.patch_skins = {{0, 2, 6}};
-  film.skin_weights.insert(film.skin_weights.end(), 2 * wire::kPatchPoints, 0.5f);
+  film.net_points = {{{0, 0, 0}, {0, 1, 0}}, {{1, 1, 1}, {0, 2, 6}}};
+  film.skin_weights.insert(film.skin_weights.end(), 2, 0.5f);
+  film.stencil_terms = {{0, 0.25f}, {1, 0.75f}, {1, 1}};
+  film.stencils = {{0, 2}, {2, 1}};
+  film.net_patches.resize(1);
+  film.net_patches[0][5] = 1;
   film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}, {1, 1, 2, 1, 2, 0}};
   film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}, {2, 5, {0, 1}, {0, 1}, 0, 0, 2}};
   film.bones = {{0, 1}, {1, 3}};
@@ -54,7 +58,8 @@ inline FilmData small_scene() {
   scene.settings.frames = 1;
   scene.patches.assign(4, flat_patch());
   scene.mesh_places.clear(), scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.meshlets.clear();
-  scene.patch_skins.clear(), scene.skin_bones.clear(), scene.skin_weights.clear();
+  scene.net_points.clear(), scene.stencil_terms.clear(), scene.stencils.clear(), scene.net_patches.clear();
+  scene.skin_bones.clear(), scene.skin_weights.clear();
   scene.shapes = {{0, 2}, {2, 2}};
   scene.segments = {{0, 0, {0, 1}, {0, 1}}, {3, 5, {6, 1}, {0, 1}}, {4, 0, {0, 1}, {0, 1}}};
   scene.changes.push_back({0, 1});

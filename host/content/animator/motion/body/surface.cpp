@@ -43,12 +43,18 @@ std::size_t heaviest_bone(const modeler::VertexBones& bones) {
   return bones.bone[static_cast<std::size_t>(heaviest - std::begin(bones.weight))];
 }
 
-// Of patches whose first control point follows a bone that counts.
+// Of what the patch's first point is a mean of, the point that weighs most.
+const modeler::VertexBones& followed_by(const modeler::ControlNet& net, const wire::NetPatch& patch) {
+  const auto terms = net.terms_of(net.stencils[patch[0]]);
+  return net.bones[std::ranges::max_element(terms, {}, &wire::StencilTerm::weight)->point];
+}
+
+// Of patches that follow a bone that counts.
 void add_bent_patches(const modeler::Shape& shape, std::span<const wire::Matrix> bones,
                       const std::vector<bool>& counted, std::vector<glm::dvec3>& points) {
   const std::vector<wire::Patch> bent = modeler::bent_patches(shape, bones);
   for (std::size_t number = 0; number < bent.size(); ++number)
-    for (int i = 0; i < kGrid && counted[heaviest_bone(shape.patch_bones[number][0])]; ++i)
+    for (int i = 0; i < kGrid && counted[heaviest_bone(followed_by(*shape.net, shape.net->patches[number]))]; ++i)
       for (int j = 0; j < kGrid; ++j)
         points.push_back(patch_point(bent[number], double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
 }

@@ -1,0 +1,98 @@
+#include "host/content/modeler/control_net.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace mars::modeler {
+namespace {
+
+constexpr double kNothing = 1e-9;  // what weighs less leaves a mean
+
+// Leaves each point once, and what is left weighs 1.
+Mean summed(Mean terms) {
+  std::ranges::stable_sort(terms, {}, &Term::point);
+  Mean sum;
+  double all = 0;
+  for (const Term& term : terms) {
+    if (sum.empty() || sum.back().point != term.point)
+      sum.push_back(term);
+    else
+      sum.back().weight += term.weight;
+  }
+  std::erase_if(sum, [](const Term& term) { return term.weight < kNothing; });
+  for (const Term& term : sum) all += term.weight;
+  for (Term& term : sum) term.weight /= all;
+  return sum;
+}
+
+std::array<float, 3> rounded(const glm::dvec3& point) {
+  return {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)};
+}
+
+wire::Patch rounded_patch(std::span<const glm::dvec3> points, const wire::NetPatch& numbers) {
+  wire::Patch patch;
+  for (std::size_t i = 0; i < numbers.size(); ++i) patch.points[i] = rounded(points[numbers[i]]);
+  return patch;
+}
+
+// Of each point the first that is the same.
+std::vector<std::uint32_t> first_of_same(const ControlNet& net) {
+  std::map<std::pair<std::array<float, 3>, VertexBones>, std::uint32_t> known;
+  std::vector<std::uint32_t> first;
+  for (std::uint32_t i = 0; i < net.points.size(); ++i)
+    first.push_back(known.try_emplace({net.points[i], net.bones[i]}, i).first->second);
+  return first;
+}
+
+}  // namespace
+
+Mean sum_of(std::span<const Share> shares) {
+  Mean terms;
+  for (const Share& share : shares)
+    for (const Term& term : share.mean) terms.push_back({term.point, share.weight * term.weight});
+  return summed(std::move(terms));
+}
+
+std::vector<wire::Patch> patches_of(const MeanPatches& means, std::span<const glm::dvec3> points) {
+  std::vector<glm::dvec3> places;
+  for (const Mean& mean : means.means) {
+    glm::dvec3& place = places.emplace_back(0, 0, 0);
+    for (const Term& term : mean) place += term.weight * points[term.point];
+  }
+  std::vector<wire::Patch> patches;
+  for (const wire::NetPatch& numbers : means.patches) patches.push_back(rounded_patch(places, numbers));
+  return patches;
+}
+
+ControlNet control_net(const MeanPatches& means, std::span<const glm::dvec3> points, std::vector<VertexBones> bones,
+                       std::size_t columns) {
+  ControlNet net{{}, std::move(bones), columns, {}, {}, means.patches};
+  for (const glm::dvec3& point : points) net.points.push_back(rounded(point));
+  const std::vector<std::uint32_t> first = first_of_same(net);
+  for (Mean mean : means.means) {
+    for (Term& term : mean) term.point = first[term.point];
+    mean = summed(std::move(mean));
+    net.stencils.push_back({static_cast<std::uint32_t>(net.terms.size()), static_cast<std::uint32_t>(mean.size())});
+    for (const Term& term : mean) net.terms.push_back({term.point, static_cast<float>(term.weight)});
+  }
+  return net;
+}
+
+std::vector<glm::dvec3> means_of(const ControlNet& net, std::span<const glm::dvec3> moved) {
+  std::vector<glm::dvec3> means;
+  for (const wire::Stencil& stencil : net.stencils) {
+    glm::dvec3& mean = means.emplace_back(0, 0, 0);
+    for (const wire::StencilTerm& term : net.terms_of(stencil)) mean += double{term.weight} * moved[term.point];
+  }
+  return means;
+}
+
+std::vector<wire::Patch> patches_of(const ControlNet& net, std::span<const glm::dvec3> moved) {
+  const std::vector<glm::dvec3> means = means_of(net, moved);
+  std::vector<wire::Patch> patches;
+  for (const wire::NetPatch& numbers : net.patches) patches.push_back(rounded_patch(means, numbers));
+  return patches;
+}
+
+}  // namespace mars::modeler
