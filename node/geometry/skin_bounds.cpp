@@ -9,8 +9,8 @@ namespace {
 
 // Of a blended place, or a mean of such, relative to the largest of what is added up to it, at most: single precision
 // rounds some ten times on the way, of dual quaternions some forty times, and once for each of a stencil's terms.
-constexpr double kRounding = 1.0 / (1 << 15);
-static_assert((wire::kMostTerms + 100.0) / (1 << 24) < kRounding);
+constexpr double kBlendRounding = 1.0 / (1 << 15);
+static_assert((wire::kMostTerms + 100.0) / (1 << 24) < kBlendRounding);
 
 constexpr double kUnbounded = std::numeric_limits<double>::max();
 
@@ -139,13 +139,13 @@ SkinBounds::Box SkinBounds::round(std::span<const std::uint32_t> bones, const st
   const Box box = stretched(box_of(low, high));
   MovedBox moved;
   for (const std::uint32_t bone : bones) moved.add(maps_[bone], box);
-  if (!is_dual()) return moved.wider(0, kRounding);
+  if (!is_dual()) return moved.wider(0, kBlendRounding);
   for (const std::uint32_t bone : bones) sides_[bone] = 0;
   const double by = beyond(std::min<std::size_t>(bones.size(), wire::kMostPointBones), [&](const auto& visit) {
     for (std::size_t a = 0; a < bones.size(); ++a)
       for (std::size_t b = a + 1; b < bones.size(); ++b) visit(bones[a], bones[b], box);
   });
-  return moved.wider(by, kRounding);
+  return moved.wider(by, kBlendRounding);
 }
 
 SkinBounds::Box SkinBounds::round(const ShapeBoxes& boxes, std::uint32_t shape) const {
@@ -153,13 +153,13 @@ SkinBounds::Box SkinBounds::round(const ShapeBoxes& boxes, std::uint32_t shape) 
   const auto of_bones = boxes.of_bones(shape);
   for (std::size_t bone = 0; bone < of_bones.size(); ++bone)
     if (!of_bones[bone].is_empty()) moved.add(maps_[bone], stretched(box_of(of_bones[bone])));
-  if (!is_dual()) return moved.wider(0, kRounding);
+  if (!is_dual()) return moved.wider(0, kBlendRounding);
   std::ranges::fill(sides_, static_cast<signed char>(0));
   const double by = beyond(std::min<std::size_t>(of_bones.size(), wire::kMostPointBones), [&](const auto& visit) {
     for (const ShapeBoxes::Pair& pair : boxes.pairs(shape))
       visit(pair.bones[0], pair.bones[1], stretched(box_of(pair.box)));
   });
-  return moved.wider(by, kRounding);
+  return moved.wider(by, kBlendRounding);
 }
 
 std::array<double, 3> SkinBounds::place(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,

@@ -230,7 +230,7 @@ class Pieces {
 
   template <typename Visit>
   void visit(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
-    if (!are_fine_) return visit(whole_of(scene_, segment, frame, boxes_, skin_));
+    if (!are_fine_) return visit(whole_of(scene_, segment, frame, boxes_, scratch_.bones));
     if (segment.bone_count > 0) return visit_skin(segment, frame, visit);
     const wire::Matrix& matrix = film_.matrix_at(segment, frame);
     for (const wire::Patch& patch : film_.patches_of(segment.shape)) {

@@ -11,7 +11,7 @@
 namespace mars::modeler {
 namespace {
 
-std::vector<glm::dvec3> read_points(const document::Element& list) {
+std::vector<glm::dvec3> read_cage_points(const document::Element& list) {
   document::require_kind(list, document::Kind::list);
   if (list.size() < 3) list.refuse("has fewer than 3 points", "give at least 3");
   std::vector<glm::dvec3> points;
@@ -32,7 +32,7 @@ std::vector<std::uint32_t> read_face(const document::Element& element, std::uint
   return face;
 }
 
-void check(const Cage& cage, const document::Element& points, const document::Element& faces) {
+void check_cage(const Cage& cage, const document::Element& points, const document::Element& faces) {
   const auto fault = fault_of(cage);
   if (!fault) return;
   std::size_t number = 0;
@@ -56,13 +56,13 @@ int read_level(const document::Fields& fields, const Cage& cage) {
 PatchShape read_subdivision(const document::Element& element) {
   const document::Fields fields(element, keys::object("subdivision"));
   const document::Element list = fields.required("points"), faces = fields.required("faces");
-  const std::vector<glm::dvec3> points = read_points(list);
+  const std::vector<glm::dvec3> points = read_cage_points(list);
   Cage cage{points.size(), {}};
   document::require_kind(faces, document::Kind::list);
   if (faces.size() == 0) faces.refuse("has no faces", "give at least one");
   for (const document::Element face : faces)
     cage.faces.push_back(read_face(face, static_cast<std::uint32_t>(points.size() - 1)));
-  check(cage, list, faces);
+  check_cage(cage, list, faces);
   const MeanPatches means = subdivided(cage, read_level(fields, cage));
   PatchShape shape{patches_of(means, points)};
   if (const auto bones = fields.find("bones")) {
