@@ -468,13 +468,17 @@ SOLE = [(-0.073, 0.009, 0.010, 0.0220, -0.0765, 0.6, 0.6), (-0.060, 0.015, 0.014
         (0.193, 0.009, 0.0090, 0.0290, -0.0785, 0.6, 0.6), (0.199, 0.006, 0.0060, 0.0160, -0.0785, 0.6, 0.6)]
 
 
+# Where toes take over from the foot, ahead of the ankle: behind the ball, so that what stands on the floor stays.
+BALL_BENDS = (BALL - 0.092, BALL - 0.004)
+
+
 def shod(rows):
     cage = Cage()
     rings = []
     for ahead, up, down, width, middle, square, below in rows:
         points = [(ahead, LEG - aside, ANKLE + middle + high)
                   for high, aside in outline([45 * i for i in range(8)], up, down, width, square, below)]
-        rings.append(cage.ring(points, along(["left-foot", ("left-toes", BALL - 0.032, BALL + 0.032)], ahead)))
+        rings.append(cage.ring(points, along(["left-foot", ("left-toes", *BALL_BENDS)], ahead)))
     cage.tube(rings)
     cage.cap(rings[0][::-1])
     cage.cap(rings[-1])
