@@ -59,33 +59,19 @@ std::optional<Placing> posed_placing(const Part& part, const Posed& posed) {
   return segment ? placing(*segment) : placing(figure->second.joints[part.joint.joint]);
 }
 
-// Where a skin's point is in the world.
-glm::dvec3 bent(const float* from, const modeler::VertexBones& follows, const std::vector<Placing>& bones) {
-  glm::dvec3 place(0);
-  for (std::size_t i = 0; i < modeler::kMostBonesOfVertex; ++i) {
-    if (follows.weight[i] == 0) continue;
-    const Placing& m = bones[follows.bone[i]];
-    for (std::size_t r = 0; r < 3; ++r)
-      place[static_cast<int>(r)] +=
-          follows.weight[i] * (m[4 * r] * from[0] + m[4 * r + 1] * from[1] + m[4 * r + 2] * from[2] + m[4 * r + 3]);
-  }
-  return place;
-}
-
 // Of a skin's lines, in the world.
-Lines bent(const Lines& skin, const std::vector<Placing>& bones) {
-  Lines lines{{}, skin.ends, skin.dots};
+Lines bent(const Lines& lines, const modeler::BentSkin& skin) {
+  Lines moved{{}, lines.ends, lines.dots};
   const auto add = [&](const glm::dvec3& place) {
-    for (int axis = 0; axis < 3; ++axis) lines.points.push_back(static_cast<float>(place[axis]));
+    for (int axis = 0; axis < 3; ++axis) moved.points.push_back(static_cast<float>(place[axis]));
   };
-  std::vector<glm::dvec3> moved;
-  for (std::size_t point = 0; point < skin.net.points.size(); ++point)
-    moved.push_back(bent(skin.net.points[point].data(), skin.net.bones[point], bones));
-  const std::vector<glm::dvec3> means = modeler::means_of(skin.net, moved);
-  for (const std::uint32_t mean : skin.means) add(means[mean]);
-  for (std::size_t point = 0; point < skin.bones.size(); ++point)
-    add(bent(&skin.points[3 * (skin.means.size() + point)], skin.bones[point], bones));
-  return lines;
+  const std::vector<glm::dvec3> means = skin.means_of(lines.net);
+  for (const std::uint32_t mean : lines.means) add(means[mean]);
+  for (std::size_t point = 0; point < lines.bones.size(); ++point) {
+    const float* const from = &lines.points[3 * (lines.means.size() + point)];
+    add(skin.place_of({from[0], from[1], from[2]}, lines.bones[point]));
+  }
+  return moved;
 }
 
 double distance_along(const wire::Camera& camera, const glm::dvec3& place) {
@@ -131,18 +117,18 @@ void FilmDrawing::draw(Drawing& drawing, As as, std::uint32_t frame, const wire:
     if (part.bones.empty())
       drawing.draw(wireframe_.lines[part.lines], at, color, stroke);
     else
-      drawing.draw(bent(wireframe_.lines[part.lines], bones_of(part, frame, posed)), kWorld, color, stroke);
+      drawing.draw(bent(wireframe_.lines[part.lines], skin_of(part, frame, posed)), kWorld, color, stroke);
   }
   if (ground) draw_axes(drawing, camera, pen);
 }
 
-std::vector<Placing> FilmDrawing::bones_of(const Part& part, std::uint32_t frame, const Posed& posed) const {
-  std::vector<Placing> bones;
+modeler::BentSkin FilmDrawing::skin_of(const Part& part, std::uint32_t frame, const Posed& posed) const {
   if (const auto figure = posed.figures.find(part.joint.actor); figure != posed.figures.end())
-    for (const wire::Matrix& bone : figure->second.bones[part.joint.joint]) bones.push_back(placing(bone));
-  if (bones.empty())
-    for (const wire::Track& bone : part.bones) bones.push_back(wireframe_.matrices[wireframe_.value_at(bone, frame)]);
-  return bones;
+    if (const auto& bones = figure->second.bones[part.joint.joint]; !bones.empty()) return {bones, part.blend};
+  std::vector<wire::Matrix> bones;
+  for (const wire::Track& bone : part.bones)
+    bones.push_back(matrix_of(wireframe_.matrices[wireframe_.value_at(bone, frame)]));
+  return {std::move(bones), part.blend};
 }
 
 // Each axis as a little stick near the lower left corner, before everything else.

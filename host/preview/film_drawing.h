@@ -5,6 +5,7 @@
 #include <span>
 
 #include "host/content/animator/pose/actor_state.h"
+#include "host/content/modeler/bent_skin.h"
 #include "host/preview/drawing.h"
 #include "host/preview/wireframe.h"
 
@@ -39,7 +40,7 @@ class FilmDrawing {
             std::span<const Cover> covers = {}, const Posed& posed = {}) const;
 
  private:
-  std::vector<Placing> bones_of(const Part& part, std::uint32_t frame, const Posed& posed) const;
+  modeler::BentSkin skin_of(const Part& part, std::uint32_t frame, const Posed& posed) const;
   void draw_axes(Drawing& drawing, const wire::Camera& camera, std::uint32_t pen) const;
 
   const Wireframe& wireframe_;

@@ -109,7 +109,12 @@ class Maker {
       const wire::Segment& segment = film_.segments()[i];
       const auto bones = film_.bones_of(segment);
       parts(As::vertices)
-          .push_back({segment.shape, segment.motion, segment.material, joints_[i], {bones.begin(), bones.end()}});
+          .push_back({segment.shape,
+                      segment.motion,
+                      segment.material,
+                      joints_[i],
+                      {bones.begin(), bones.end()},
+                      segment.blend});
       parts(As::prisms).push_back({cube, segment.motion, segment.material, joints_[i]});
     }
   }
@@ -216,6 +221,13 @@ Placing placing(const wire::Matrix& matrix) {
   Placing flat;
   for (std::size_t i = 0; i < 12; ++i) flat[i] = static_cast<float>(matrix.m[i / 4][i % 4]);
   return flat;
+}
+
+wire::Matrix matrix_of(const Placing& placing) {
+  wire::Matrix matrix;
+  for (std::size_t r = 0; r < 3; ++r)
+    for (std::size_t c = 0; c < 4; ++c) matrix.m[r][c] = placing[4 * r + c];
+  return matrix;
 }
 
 Placing placing(const modeler::Axes& frame) {

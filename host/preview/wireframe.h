@@ -35,14 +35,16 @@ struct Part {
   std::uint32_t lines;
   wire::Track motion;
   wire::Track look;
-  JointNumber joint{};               // that moves it, where joints are known
-  std::vector<wire::Track> bones{};  // of a skin, which move its lines instead
+  JointNumber joint{};                      // that moves it, where joints are known
+  std::vector<wire::Track> bones{};         // of a skin, which move its lines instead
+  wire::Blend blend = wire::Blend::linear;  // of a skin
 };
 
 // Affine map, row by row, as wire::Matrix.
 using Placing = std::array<float, 12>;
 Placing placing(const wire::Matrix& matrix);
 Placing placing(const modeler::Axes& frame);
+wire::Matrix matrix_of(const Placing& placing);
 
 using Color = std::array<float, 3>;  // 0..1
 

@@ -110,10 +110,12 @@ TEST(Allocation, NoneWithLayers) {
 }
 
 TEST(Allocation, NoneWithSkins) {
-  wire::FilmData film = bending(64, 36, 600, 3);
-  for (wire::Light& light : film.lights) light.casts = 0;
-  expect_none_in_steady_state(film, nullptr);
-  expect_none_in_steady_state(film, nullptr, wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, 1));
+  for (const wire::Blend blend : {wire::Blend::linear, wire::Blend::dual_quaternions}) {
+    wire::FilmData film = bending(64, 36, 600, 3, blend);
+    for (wire::Light& light : film.lights) light.casts = 0;
+    expect_none_in_steady_state(film, nullptr);
+    expect_none_in_steady_state(film, nullptr, wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, 1));
+  }
 }
 
 TEST(Allocation, NoneWhereTheRunIsTraced) {

@@ -359,7 +359,8 @@ modeler::Shape patch_tube(std::uint32_t rows, std::uint32_t bones) {
 
 }  // namespace
 
-wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval) {
+wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval,
+                       wire::Blend blend) {
   FilmMaker maker(width, height, frames);
   const std::uint32_t clay = maker.add_material(kClay),
                       blue = maker.add_material({{0.3f, 0.4f, 0.9f}, 0.1f, 0.6f, 0.9f, 200, 1});
@@ -376,6 +377,8 @@ wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t 
   maker.add_skin(shapes[1], blue, bends({2, -2, 0}, 4.5, 24, angles));
   for (double& angle : angles) angle *= 3;
   maker.add_skin(maker.add_shape(patch_tube(9, 5)), clay, bends({-0.3, -2.8, 0}, 3, 5, angles));
+  for (wire::Segment& segment : maker.film.segments)
+    if (segment.bone_count > 0) segment.blend = blend;
   maker.add_light({wire::LightKind::directional, {-0.28f, 0, 0.96f}, {0.8f, 0.8f, 0.8f}});
   maker.add_light({wire::LightKind::point, {0, -4, 6}, {0.5f, 0.5f, 0.6f}});
   maker.film.lights[0].casts = 1;

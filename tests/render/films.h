@@ -70,7 +70,8 @@ wire::FilmData corner(std::uint32_t width, std::uint32_t height, std::uint32_t f
 modeler::Mesh tube(std::uint32_t rows, std::uint32_t bones);
 // Tubes with skins that bend before and behind bodies that stand still; one of them holds still, bent. A light casts
 // shadows.
-wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval);
+wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval,
+                       wire::Blend blend = wire::Blend::linear);
 // No patch at all.
 wire::FilmData nothing(std::uint32_t width, std::uint32_t height, std::uint32_t frames);
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "hal/threads/run_threads.h"
@@ -23,7 +24,11 @@
 namespace mars::test {
 namespace {
 
-wire::FilmData small_bending() { return bending(120, 80, 5, 3); }
+constexpr wire::Blend kBlends[] = {wire::Blend::linear, wire::Blend::dual_quaternions};
+
+wire::FilmData small_bending(wire::Blend blend) { return bending(120, 80, 5, 3, blend); }
+
+std::string name_of(wire::Blend blend) { return blend == wire::Blend::linear ? "linear" : "dual"; }
 
 FilmRun from_scratch(const wire::FilmData& film, wire::PixelFormat format = wire::PixelFormat::rgb8) {
   RunOptions options;
@@ -34,8 +39,9 @@ FilmRun from_scratch(const wire::FilmData& film, wire::PixelFormat format = wire
 }
 
 TEST(Skins, AreTheSameBitsHoweverTheWorkIsDivided) {
-  for (const std::uint32_t samples : {1u, 4u}) {
-    const wire::FilmData film = with_samples(small_bending(), samples);
+  for (const auto& [samples, blend] :
+       {std::pair{1u, kBlends[0]}, {4u, kBlends[0]}, {1u, kBlends[1]}, {4u, kBlends[1]}}) {
+    const wire::FilmData film = with_samples(small_bending(blend), samples);
     const FilmRun expected = from_scratch(film);
     for (const auto& [nodes, groups, sharers] : {std::tuple{1, 1u, 1}, {3, 1u, 1}, {5, 2u, 2}, {4, 1u, 4}}) {
       RunOptions options;
@@ -43,27 +49,37 @@ TEST(Skins, AreTheSameBitsHoweverTheWorkIsDivided) {
       options.work.groups = groups;
       options.work.sharers = sharers;
       expect_same(run_film(FilmBlock(film).bytes(), options), expected, film.settings,
-                  "skins-" + std::to_string(samples) + "-samples-" + std::to_string(nodes) + "-nodes");
+                  name_of(blend) + "-skins-" + std::to_string(samples) + "-samples-" + std::to_string(nodes) +
+                      "-nodes");
     }
   }
 }
 
 TEST(Skins, AreTheSameBitsFromEveryInstructionSet) {
-  const wire::FilmData film = small_bending();
-  const FilmRun expected = from_scratch(film);
-  for (const simd::InstructionSet set : simd::all_sets()) {
-    RunOptions options;
-    options.simd = simd::name_of(set);
-    options.nodes = 2;
-    expect_same(run_film(FilmBlock(film).bytes(), options), expected, film.settings, "skins-" + options.simd);
+  for (const wire::Blend blend : kBlends) {
+    const wire::FilmData film = small_bending(blend);
+    const FilmRun expected = from_scratch(film);
+    for (const simd::InstructionSet set : simd::all_sets()) {
+      RunOptions options;
+      options.simd = simd::name_of(set);
+      options.nodes = 2;
+      expect_same(run_film(FilmBlock(film).bytes(), options), expected, film.settings,
+                  name_of(blend) + "-skins-" + options.simd);
+    }
   }
+}
+
+TEST(Skins, LookOtherwiseByDualQuaternions) {
+  EXPECT_NE(from_scratch(small_bending(kBlends[0])).frames, from_scratch(small_bending(kBlends[1])).frames);
 }
 
 // The twin draws no shadows.
 TEST(Skins, AreDrawnAsByThePlainTwin) {
-  wire::FilmData film = small_bending();
-  for (wire::Light& light : film.lights) light.casts = 0;
-  for (const std::uint32_t frame : {0u, 4u}) expect_as_reference(film, frame, 3);
+  for (const wire::Blend blend : kBlends) {
+    wire::FilmData film = small_bending(blend);
+    for (wire::Light& light : film.lights) light.casts = 0;
+    for (const std::uint32_t frame : {0u, 4u}) expect_as_reference(film, frame, 3);
+  }
 }
 
 TEST(Skins, HoldStillUntilABoneMoves) {
@@ -73,8 +89,8 @@ TEST(Skins, HoldStillUntilABoneMoves) {
 }
 
 // A studio's view: an inbetween in which one bone stands elsewhere is the picture of the scene with that bone there.
-TEST(Skins, BendInLiveViews) {
-  wire::FilmData film = bending(96, 64, 1, 1);
+void expect_bent_in_live_views(wire::Blend blend) {
+  wire::FilmData film = bending(96, 64, 1, 1, blend);
   film.moving = {2};
   film.intervals = {{0, 1, 0, 1}};
   wire::FilmData scene = film, bent = film;
@@ -105,10 +121,14 @@ TEST(Skins, BendInLiveViews) {
   EXPECT_NE(keyframe.frames[0], inbetween.frames[0]);
 }
 
+TEST(Skins, BendInLiveViews) {
+  for (const wire::Blend blend : kBlends) expect_bent_in_live_views(blend);
+}
+
 // Every vertex of a moving skin is where the sweep says that something may change.
-TEST(Skins, AreSwept) {
+void expect_swept(wire::Blend blend) {
   const std::uint32_t frames = 6;
-  const FilmBlock block(bending(200, 150, frames, frames));
+  const FilmBlock block(bending(200, 150, frames, frames, blend));
   const wire::PackedFilm film = block.view();
   geometry::Scene scene(film);
   scene.set_interval(0);
@@ -140,6 +160,10 @@ TEST(Skins, AreSwept) {
   }
   EXPECT_GT(seen, 1000u);
   EXPECT_GT(std::count(covered.begin(), covered.end(), 0), 200 * 150 / 4);
+}
+
+TEST(Skins, AreSwept) {
+  for (const wire::Blend blend : kBlends) expect_swept(blend);
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ class Comparison {
         before_.light_tracks().size() != now_.light_tracks().size())
       return false;
     for (std::size_t i = 0; i < a.size(); ++i)
-      if (!have_same_shape(a[i].shape, b[i].shape) || a[i].bone_count != b[i].bone_count) return false;
+      if (!have_same_shape(a[i].shape, b[i].shape) || a[i].bone_count != b[i].bone_count || a[i].blend != b[i].blend)
+        return false;
     return true;
   }
 

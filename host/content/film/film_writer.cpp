@@ -132,6 +132,7 @@ void FilmWriter::write_segments(const ShapeNumbers& shapes) {
 void FilmWriter::add_bones(wire::Segment& segment, const modeler::Segment& of_model) {
   segment.first_bone = static_cast<std::uint32_t>(data_.bones.size());
   segment.bone_count = static_cast<std::uint32_t>(of_model.bones.size());
+  segment.blend = of_model.blend;
   data_.bones.resize(data_.bones.size() + of_model.bones.size());
 }
 

@@ -84,6 +84,7 @@ std::string FrameContent::checksum(std::uint32_t frame) const {
 
 void FrameContent::add_place(const wire::Segment& segment, std::uint32_t frame, Checksum& sum) const {
   if (segment.bone_count == 0) return add(sum, film_.matrix_at(segment, frame));
+  if (segment.blend != wire::Blend::linear) add(sum, segment.blend);
   for (const wire::Track& bone : film_.bones_of(segment)) add(sum, film_.matrix_at(bone, frame));
 }
 

@@ -14,6 +14,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/document/text.h"
+#include "node/shape/dual_quaternion.h"
 #include "topology/memory_limit.h"
 
 namespace mars::film {
@@ -300,10 +301,12 @@ class MotionWriter {
       const modeler::Joint &joint = joints[writing.joint], &moved_by = joints[writing.moved_by()];
       for (const animator::Key<modeler::Axes>& key : actor.matrices[writing.moved_by()]) {
         if (key.frame >= film_.frames) continue;
-        add(number, share, writing, key.frame,
+        const wire::Matrix matrix =
             writing.bone != nullptr
                 ? modeler::bone_matrix(modeler::joint_frame(key.value, moved_by), *writing.bone, joint)
-                : modeler::t_matrix(key.value, joint.segment->sbb));
+                : modeler::t_matrix(key.value, joint.segment->sbb);
+        if (writing.bone != nullptr) check_volume(matrix, film_, number, writing.joint, *writing.bone, key.frame);
+        add(number, share, writing, key.frame, matrix);
       }
     }
   }
@@ -351,15 +354,32 @@ class MotionWriter {
 
 }  // namespace
 
+namespace {
+
+std::string place_of(const animator::Film& film, std::size_t actor, std::size_t joint, std::uint32_t frame) {
+  return (film.source.empty() ? "" : film.source + ": ") + film.actors[actor].name + "/" +
+         film.model_of(actor).joints[joint].name + ", frame " + std::to_string(frame);
+}
+
+}  // namespace
+
 void check_near(const wire::Matrix& matrix, const animator::Film& film, std::size_t actor, std::size_t joint,
                 std::uint32_t frame) {
   for (const auto& row : matrix.m)
     for (const double number : row)
       if (!(std::abs(number) <= kFarthestMatrix))
-        throw Failure("stands farther than 1e12 from the origin",
-                      (film.source.empty() ? "" : film.source + ": ") + film.actors[actor].name + "/" +
-                          film.model_of(actor).joints[joint].name + ", frame " + std::to_string(frame),
+        throw Failure("stands farther than 1e12 from the origin", place_of(film, actor, joint, frame),
                       "use smaller places and boxes");
+}
+
+void check_volume(const wire::Matrix& matrix, const animator::Film& film, std::size_t actor, std::size_t joint,
+                  const modeler::Bone& bone, std::uint32_t frame) {
+  const auto& joints = film.model_of(actor).joints;
+  if (joints[joint].segment->blend == wire::Blend::linear || !shape::is_flat(matrix)) return;
+  throw Failure("has a skin whose bone '" + joints[bone.joint].name +
+                    "' flattens what follows it, which dual quaternions cannot turn",
+                place_of(film, actor, joint, frame),
+                "give the bone's matrix three directions, or write \"blend\": \"linear\" in the skin");
 }
 
 std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines) {

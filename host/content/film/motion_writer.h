@@ -21,4 +21,8 @@ std::size_t write_motion(const animator::Film& film, wire::FilmData& data, Compi
 void check_near(const wire::Matrix& matrix, const animator::Film& film, std::size_t actor, std::size_t joint,
                 std::uint32_t frame);
 
+// Throws where dual quaternions blend the segment's skin and a bone of it, whose T-matrix this is, has no volume.
+void check_volume(const wire::Matrix& matrix, const animator::Film& film, std::size_t actor, std::size_t joint,
+                  const modeler::Bone& bone, std::uint32_t frame);
+
 }  // namespace mars::film

@@ -9,6 +9,7 @@ namespace mars::keys {
 namespace {
 
 constexpr std::string_view kSplineEnds[] = {"clamped", "open", "periodic"};
+constexpr std::string_view kBlends[] = {"linear", "dual-quaternions"};  // as wire::Blend counts them
 
 constexpr Type kModelTypes[] = {
     {"name", R"({"type": "string", "minLength": 1, "maxLength": 100, "pattern": "^[^/]*$"})", R"("anna")"},
@@ -352,7 +353,13 @@ Object skin() {
         .type = "binds",
         .meaning = "for each of the joints 12 numbers, a matrix of 3 rows: it leads from the frame of the segment's "
                    "joint, as the shape was made, to the frame of this joint",
-        .without = "the shape was made for the model at rest"}}};
+        .without = "the shape was made for the model at rest"},
+       {.name = "blend",
+        .type = "choice",
+        .meaning = "between its bones a point goes straight, by the sum of their matrices (`\"linear\"`), or round an "
+                   "arc (`\"dual-quaternions\"`), so that limbs that bend far stay full",
+        .json = R"("linear")",
+        .choices = kBlends}}};
 }
 
 Object proportions() {

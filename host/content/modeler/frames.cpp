@@ -6,6 +6,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
+
+#include "host/content/modeler/bent_skin.h"
 
 namespace mars::modeler {
 namespace {
@@ -47,11 +50,12 @@ std::vector<glm::dvec3> surface_points(const Shape& shape) {
 std::vector<glm::dvec3> skin_at_rest(const Model& model, const Joint& joint, const std::vector<Axes>& frames) {
   std::vector<wire::Matrix> bones;
   for (const Bone& bone : joint.segment->bones) bones.push_back(bone_matrix(frames[bone.joint], bone, joint));
+  const BentSkin skin(std::move(bones), joint.segment->blend);
   const Shape& shape = model.shapes[joint.segment->shape];
-  if (!shape.mesh) return surface_points({"", bent_patches(shape, bones)});
+  if (shape.net) return surface_points({"", skin.patches_of(*shape.net)});
   std::vector<glm::dvec3> places;
   for (std::size_t vertex = 0; vertex < shape.mesh->vertices.size(); ++vertex)
-    places.push_back(skinned_place(shape.mesh->vertices[vertex], shape.mesh->bones[vertex], bones));
+    places.push_back(skin.place_of(shape.mesh->vertices[vertex], shape.mesh->bones[vertex]));
   return places;
 }
 
@@ -109,43 +113,12 @@ wire::Matrix bone_matrix(const Axes& frame, const Bone& bone, const Joint& joint
   return t_matrix({map.turn, map.place}, joint.segment->sbb);
 }
 
-wire::Matrix blended(const VertexBones& point, std::span<const wire::Matrix> bones) {
-  wire::Matrix sum{};
-  for (std::size_t i = 0; i < kMostBonesOfVertex; ++i) {
-    if (point.weight[i] == 0) continue;
-    for (std::size_t r = 0; r < 3; ++r)
-      for (std::size_t c = 0; c < 4; ++c) sum.m[r][c] += point.weight[i] * bones[point.bone[i]].m[r][c];
-  }
-  return sum;
-}
-
-glm::dvec3 skinned_place(const Mesh::Place& at, const VertexBones& point, std::span<const wire::Matrix> bones) {
-  const wire::Matrix matrix = blended(point, bones);
-  glm::dvec3 place;
-  for (int r = 0; r < 3; ++r) {
-    const auto& row = matrix.m[static_cast<std::size_t>(r)];
-    place[r] = row[0] * at[0] + row[1] * at[1] + row[2] * at[2] + row[3];
-  }
-  return place;
-}
-
-std::vector<glm::dvec3> moved_points(const ControlNet& net, std::span<const wire::Matrix> bones) {
-  std::vector<glm::dvec3> moved;
-  for (std::size_t point = 0; point < net.points.size(); ++point)
-    moved.push_back(skinned_place(net.points[point], net.bones[point], bones));
-  return moved;
-}
-
 std::uint32_t last_bone(const Shape& shape) {
   std::uint32_t last = 0;
   const auto look = [&](std::span<const VertexBones> points) { last = std::max(last, all_bones(points).back()); };
   if (shape.mesh) look(shape.mesh->bones);
   if (shape.net) look(shape.net->bones);
   return last;
-}
-
-std::vector<wire::Patch> bent_patches(const Shape& shape, std::span<const wire::Matrix> bones) {
-  return patches_of(*shape.net, moved_points(*shape.net, bones));
 }
 
 wire::Matrix t_matrix(const Axes& frame, const Box& sbb) {

@@ -49,16 +49,6 @@ Affine bind_at_rest(const Axes& bone, const Axes& joint);
 // The T-matrix of a bone whose joint stands at `frame`.
 wire::Matrix bone_matrix(const Axes& frame, const Bone& bone, const Joint& joint);
 
-// The T-matrix of a point of a skin whose bones have these.
-wire::Matrix blended(const VertexBones& point, std::span<const wire::Matrix> bones);
-// Where the point, of the unit cube, then is.
-glm::dvec3 skinned_place(const Mesh::Place& at, const VertexBones& point, std::span<const wire::Matrix> bones);
-
-// Of a net's points, where they then are.
-std::vector<glm::dvec3> moved_points(const ControlNet& net, std::span<const wire::Matrix> bones);
-// The patches of a shape with a net whose bones have these T-matrices, in the world.
-std::vector<wire::Patch> bent_patches(const Shape& shape, std::span<const wire::Matrix> bones);
-
 // The T-matrix, from the unit cube: `frame` after scaling into `sbb`.
 wire::Matrix t_matrix(const Axes& frame, const Box& sbb);
 

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "node/wire/film_parts.h"
+
 namespace mars::modeler {
 
 inline constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -61,6 +63,7 @@ struct Segment {
   Box sbb;
   std::string material;       // of the model, else of the film; "": the default one
   std::vector<Bone> bones{};  // of a skin, ascending by joint: the mesh's vertices have their numbers; else none
+  wire::Blend blend = wire::Blend::linear;  // of a skin
 };
 
 struct Joint {

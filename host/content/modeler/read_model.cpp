@@ -18,6 +18,7 @@
 #include "host/content/modeler/read_mesh.h"
 #include "host/content/modeler/read_subdivision.h"
 #include "host/content/modeler/shape_library.h"
+#include "node/shape/dual_quaternion.h"
 
 namespace mars::modeler {
 namespace {
@@ -287,6 +288,16 @@ class ModelReader {
       for (const document::Element bind : *binds) segment.bones[bone++].bind = read_bind(bind);
     }
     check_bones(element, segment);
+    segment.blend = static_cast<wire::Blend>(fields.choice("blend"));
+    if (segment.blend == wire::Blend::dual_quaternions) check_volumes(element, model_.joints[number]);
+  }
+
+  void check_volumes(const document::Element& element, const Joint& joint) const {
+    for (const Bone& bone : joint.segment->bones)
+      if (shape::is_flat(bone_matrix({}, bone, joint)))
+        element.refuse("flattens what follows '" + model_.joints[bone.joint].name +
+                           "', which dual quaternions cannot turn",
+                       "give its bind three directions, or write \"blend\": \"linear\"");
   }
 
   // The shape's points have numbers in the list, which follows the order of the joints.

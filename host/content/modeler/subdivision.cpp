@@ -12,7 +12,7 @@ constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
 
 struct Edge {
   std::uint32_t ends[2];
-  std::uint32_t faces[2] = {kNoFace, kNoFace};  // the second: none at a border
+  std::uint32_t faces[2];  // the second: none at a border
 
   bool is_border() const { return faces[1] == kNoFace; }
   std::uint32_t other(std::uint32_t end) const { return ends[0] == end ? ends[1] : ends[0]; }
@@ -54,7 +54,7 @@ class Topology {
       around_[from].faces.push_back(face);
       const auto [known, is_new] = numbers_.try_emplace(key(from, to), static_cast<std::uint32_t>(edges_.size()));
       if (is_new)
-        edges_.push_back({{from, to}, {face}});
+        edges_.push_back({{from, to}, {face, kNoFace}});
       else
         edges_[known->second].faces[1] = face;
     }

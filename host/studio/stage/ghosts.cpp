@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "host/content/modeler/frames.h"
+#include "host/content/modeler/bent_skin.h"
 #include "host/studio/stage/reach_place.h"
 
 namespace mars::studio {
@@ -134,12 +134,14 @@ namespace {
 void add_bent(const modeler::Model& model, std::size_t joint, std::span<const wire::Matrix> bones,
               std::vector<glm::dvec3>& places) {
   constexpr std::size_t kMostPoints = 1000;
-  const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
+  const modeler::Segment& segment = *model.joints[joint].segment;
+  const modeler::BentSkin skin({bones.begin(), bones.end()}, segment.blend);
+  const modeler::Shape& shape = model.shapes[segment.shape];
   const std::size_t vertices = shape.mesh ? shape.mesh->vertices.size() : 0;
   for (std::size_t vertex = 0; vertex < vertices; vertex += 1 + vertices / kMostPoints)
-    places.push_back(modeler::skinned_place(shape.mesh->vertices[vertex], shape.mesh->bones[vertex], bones));
+    places.push_back(skin.place_of(shape.mesh->vertices[vertex], shape.mesh->bones[vertex]));
   if (!shape.net) return;
-  const std::vector<glm::dvec3> means = modeler::means_of(*shape.net, modeler::moved_points(*shape.net, bones));
+  const std::vector<glm::dvec3> means = skin.means_of(*shape.net);
   for (std::size_t mean = 0; mean < means.size(); mean += 1 + means.size() / kMostPoints) places.push_back(means[mean]);
 }
 

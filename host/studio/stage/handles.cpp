@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/reach_place.h"
 
@@ -183,9 +184,11 @@ class Maker {
 
 wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, const animator::ActorState& state,
                              const Grip& point) {
-  const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
+  const modeler::Segment& segment = *model.joints[joint].segment;
+  const modeler::Shape& shape = model.shapes[segment.shape];
   if (!shape.net) return state.segments[joint].value();
-  return modeler::blended(shape.net->bones[shape.net->columns * point.j + point.i], state.bones[joint]);
+  return modeler::BentSkin(state.bones[joint], segment.blend)
+      .matrix_of(shape.net->bones[shape.net->columns * point.j + point.i]);
 }
 
 TurnAxis Posed::axis(int number) const {

@@ -64,7 +64,7 @@ bool same_segments(const wire::FilmData& one, const wire::FilmData& other) {
   return one.patches.size() == other.patches.size() &&
          std::equal(one.segments.begin(), one.segments.end(), other.segments.begin(), other.segments.end(),
                     [](const wire::Segment& a, const wire::Segment& b) {
-                      return a.shape == b.shape && a.bone_count == b.bone_count;
+                      return a.shape == b.shape && a.bone_count == b.bone_count && a.blend == b.blend;
                     });
 }
 

@@ -115,12 +115,14 @@ void LinePictures::take_segments(preview::As as, preview::Wireframe& wireframe) 
 // Their matrices come behind those of all segments.
 void LinePictures::take_bones(preview::Wireframe& wireframe) {
   const wire::FilmData& now = moments_.now();
-  for (std::size_t number = 0; number < now.segments.size(); ++number)
+  for (std::size_t number = 0; number < now.segments.size(); ++number) {
+    preview::Part& part = wireframe.parts[static_cast<std::size_t>(preview::As::vertices)][number];
+    part.blend = now.segments[number].blend;
     for (std::size_t bone = 0; bone < now.segments[number].bone_count; ++bone) {
       wireframe.matrices.push_back(preview::placing(moments_.bone_of(now.segments[number], bone)));
-      wireframe.parts[static_cast<std::size_t>(preview::As::vertices)][number].bones.push_back(
-          track_of(wireframe, wireframe.matrices.size() - 1));
+      part.bones.push_back(track_of(wireframe, wireframe.matrices.size() - 1));
     }
+  }
 }
 
 // The net of a shape that is pulled is made again each time, in its place before all others.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "hal/failure/failure.h"
 
@@ -95,21 +96,25 @@ void Moments::put_pulled(wire::FilmData& moment) const {
 std::vector<std::array<float, 3>> Moments::bent(std::size_t segment, const wire::Skin& skin,
                                                 std::span<const std::array<float, 3>> points) const {
   const wire::FilmData& parts = shapes_.parts;
-  std::vector<glm::dvec3> sums(points.size(), glm::dvec3(0));
-  const float* weights = parts.skin_weights.data() + skin.first_weight;
-  for (std::uint32_t i = 0; i < skin.bone_count; ++i, weights += points.size()) {
-    const auto& m = bone_of(now_->segments[segment], parts.skin_bones[skin.first_bone + i]).m;
-    for (std::size_t point = 0; point < sums.size(); ++point) {
-      const auto& from = points[point];
-      for (int axis = 0; axis < 3; ++axis) {
-        const auto& row = m[static_cast<std::size_t>(axis)];
-        sums[point][axis] += weights[point] * (row[0] * from[0] + row[1] * from[1] + row[2] * from[2] + row[3]);
-      }
-    }
-  }
+  const modeler::BentSkin bones = bones_of(segment);
   std::vector<std::array<float, 3>> places;
-  for (const glm::dvec3& sum : sums) places.push_back({float(sum.x), float(sum.y), float(sum.z)});
+  std::vector<modeler::BoneWeight> follows;
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    follows.clear();
+    const float* weight = parts.skin_weights.data() + skin.first_weight + point;
+    for (std::uint32_t i = 0; i < skin.bone_count; ++i, weight += points.size())
+      if (*weight > 0) follows.push_back({parts.skin_bones[skin.first_bone + i], *weight});
+    const glm::dvec3 place = modeler::placed(bones.matrix_of(follows), points[point]);
+    places.push_back({float(place.x), float(place.y), float(place.z)});
+  }
   return places;
+}
+
+modeler::BentSkin Moments::bones_of(std::size_t segment) const {
+  const wire::Segment& of = now_->segments[segment];
+  std::vector<wire::Matrix> bones;
+  for (std::size_t bone = 0; bone < of.bone_count; ++bone) bones.push_back(bone_of(of, bone));
+  return {std::move(bones), of.blend};
 }
 
 std::vector<std::array<float, 3>> Moments::bent_places(std::size_t segment, const wire::Meshlet& meshlet) const {
@@ -122,10 +127,7 @@ std::vector<wire::Patch> Moments::bent_patches(std::size_t segment) const {
   const modeler::Model& model = project_.film().model_of(actor);
   const modeler::Shape& shape = model.shapes[model.joints[joint].segment->shape];
   if (!shape.net) return {};
-  std::vector<wire::Matrix> bones;
-  for (std::uint32_t bone = 0; bone < now_->segments[segment].bone_count; ++bone)
-    bones.push_back(bone_of(now_->segments[segment], bone));
-  return modeler::bent_patches(shape, bones);
+  return bones_of(segment).patches_of(*shape.net);
 }
 
 const wire::Shape& Moments::shape_of(std::size_t segment) const {

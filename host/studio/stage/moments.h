@@ -14,6 +14,7 @@
 
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/film/moment.h"
+#include "host/content/modeler/bent_skin.h"
 #include "host/preview/wireframe.h"
 #include "host/studio/project/project.h"
 
@@ -76,6 +77,7 @@ class Moments {
   const wire::Shape& shape_of(std::size_t segment) const;
   std::vector<std::array<float, 3>> bent(std::size_t segment, const wire::Skin& skin,
                                          std::span<const std::array<float, 3>> points) const;
+  modeler::BentSkin bones_of(std::size_t segment) const;
   bool is_short() const;
 
   const Project& project_;

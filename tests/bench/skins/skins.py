@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What skins cost: a crowd of figures whose vertices follow up to four bones each, beside its rigid twin, whose joints
-have the faces of which most corners follow them.
+have the faces of which most corners follow them, and the same crowd blended by dual quaternions.
 
 Both draw whole frames in turn, and so does Mesa's llvmpipe, which bends the figures in its vertex shader; from the
 order to the composed frame; all figures bend in each. Printed are milliseconds a frame, best and middle, and ratios of
@@ -103,6 +103,15 @@ def rigid(triangles):
     return {"joints": all_joints, "shapes": shapes}
 
 
+def dual(triangles):
+    """The skinned figure, blended by dual quaternions."""
+    model = skinned(triangles)
+    for joint in model["joints"]:
+        if "skin" in joint.get("segment", {}):
+            joint["segment"]["skin"]["blend"] = "dual-quaternions"
+    return model
+
+
 def film(model, figures, size, frames, samples):
     """Figures on a square, each bending another way."""
     side = math.ceil(math.sqrt(figures))
@@ -137,7 +146,7 @@ class Heat:
 
     def begin_all(self):
         wanted = self.wanted
-        for name, make in (("skinned", skinned), ("rigid", rigid)):
+        for name, make in (("skinned", skinned), ("rigid", rigid), ("dual", dual)):
             path = os.path.join(self.folder, name + ".json")
             with open(path, "w") as file:
                 json.dump(film(make(wanted.triangles), wanted.figures, wanted.size, WARMING + wanted.rounds + 1,
@@ -191,7 +200,7 @@ def measure(wanted, column):
 def line_of(column, times):
     text = ", ".join(f"{name} {min(ms):.1f} ({statistics.median(ms):.1f})" for name, ms in times.items())
     best = {name: min(ms) for name, ms in times.items()}
-    text += f"; skinned / rigid {best['skinned'] / best['rigid']:.2f}"
+    text += f"; skinned / rigid {best['skinned'] / best['rigid']:.2f}, dual / skinned {best['dual'] / best['skinned']:.2f}"
     peers = [ms for name, ms in best.items() if name.startswith("llvmpipe")]
     if peers:
         text += f", llvmpipe / skinned {min(peers) / best['skinned']:.2f}"

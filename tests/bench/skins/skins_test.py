@@ -21,9 +21,9 @@ class Skins(unittest.TestCase):
                 [BUILD / "bench" / "skins" / "run", "--figures", "2", "--triangles", "600", "--size", "96x54", "--rounds",
                  "2", "--columns", "1", "-o", output], check=True, capture_output=True, text=True, timeout=50).stdout
             self.assertRegex(printed, r"1 processor: skinned [\d.]+ \([\d.]+\), rigid [\d.]+ \([\d.]+\)"
-                                      r".*; skinned / rigid [\d.]+")
+                                      r".*; skinned / rigid [\d.]+, dual / skinned [\d.]+")
             measured = json.loads(output.read_text())["1"]
-            self.assertLessEqual({"skinned", "rigid"}, set(measured))
+            self.assertLessEqual({"skinned", "rigid", "dual"}, set(measured))
             self.assertTrue(all(len(milliseconds) == 2 for milliseconds in measured.values()))
 
     def test_twins_have_the_same_faces(self):

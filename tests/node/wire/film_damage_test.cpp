@@ -83,6 +83,7 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].bone_count = 0; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].patch_count = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.segments[2].blend = Blend{2}; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.shapes[2].first_net_patch = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.net_points[1].skin.bone_count = 0; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.net_points[1].skin.bone_count = 3; }));

@@ -35,7 +35,10 @@ void expect_film_at(const animator::Film& film, const wire::PackedFilm& whole, s
   expect_same(moment.patches(), whole.patches(), at);
   expect_same(moment.shapes(), whole.shapes(), at);
   expect_same(moment.meshlets(), whole.meshlets(), at);
-  expect_same(moment.patch_skins(), whole.patch_skins(), at);
+  expect_same(moment.net_points(), whole.net_points(), at);
+  expect_same(moment.stencil_terms(), whole.stencil_terms(), at);
+  expect_same(moment.stencils(), whole.stencils(), at);
+  expect_same(moment.net_patches(), whole.net_patches(), at);
   expect_same(moment.skin_bones(), whole.skin_bones(), at);
   expect_same(moment.skin_weights(), whole.skin_weights(), at);
   expect_same(moment.camera_at(0), whole.camera_at(frame), at);

@@ -13,6 +13,8 @@
 #include "host/content/film/changed_frames.h"
 #include "host/content/film/frame_content.h"
 #include "host/content/film/panorama.h"
+#include "host/content/modeler/bent_skin.h"
+#include "host/content/modeler/frames.h"
 #include "host/content/modeler/proportions.h"
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/film/small_film.h"
@@ -85,6 +87,62 @@ TEST(Skins, OtherPosesAndWeightsAreOtherFrames) {
   const CompiledFilm other = compiled(reweighted);
   EXPECT_EQ(changed_frames(before.view(), other.view()).size(), 20u);
   EXPECT_NE(FrameContent(before.view()).checksum(0), FrameContent(other.view()).checksum(0));
+}
+
+// The text of the sleeve's film with more in its skin.
+std::string with_skin(std::string json, const std::string& more) {
+  const std::string joints = "[\"upper\", \"fore\"]";
+  return json.replace(json.find(joints), joints.size(), joints + ", " + more);
+}
+
+TEST(Skins, BlendAsTheirModelSays) {
+  const std::string json = sleeve_film(kBends, R"("frames": 20, "intervals": "keyframes")");
+  const CompiledFilm linear = compiled(json), dual = compiled(with_skin(json, R"("blend": "dual-quaternions")"));
+  EXPECT_EQ(linear.view().segments()[0].blend, wire::Blend::linear);
+  EXPECT_EQ(dual.view().segments()[0].blend, wire::Blend::dual_quaternions);
+  EXPECT_EQ(changed_frames(linear.view(), dual.view()).size(), 20u);
+  EXPECT_NE(FrameContent(linear.view()).checksum(9), FrameContent(dual.view()).checksum(9));
+}
+
+// A knee of 150 degrees: what follows both bones alike keeps its distance from the hinge, where linear blending pulls
+// it in.
+TEST(Skins, KeepTheirVolumeByDualQuaternions) {
+  const animator::Film film = film_of(with_skin(sleeve_film(kStill), R"("blend": "dual-quaternions")"));
+  const modeler::Joint& joint = film.models[0].joints[0];
+  std::vector<modeler::Axes> frames = modeler::rest_frames(film.models[0]);
+  frames[2].turn = modeler::rotation_by_degrees({0, 1, 0}, 150);
+  std::vector<wire::Matrix> bones;
+  for (const modeler::Bone& bone : joint.segment->bones)
+    bones.push_back(modeler::bone_matrix(frames[bone.joint], bone, joint));
+  const modeler::BentSkin dual(bones, joint.segment->blend), linear(bones, wire::Blend::linear);
+  const modeler::VertexBones half{{0, 1}, {0.5f, 0.5f}};
+  const glm::dvec3 hinge = frames[2].place;
+  const auto drawn = glm::distance(modeler::placed(bones[0], {0.5f, 0.5f, 0.25f}), hinge);
+  EXPECT_GT(drawn, 0.1);
+  EXPECT_NEAR(glm::distance(dual.place_of({0.5f, 0.5f, 0.25f}, half), hinge), drawn, 1e-6);
+  EXPECT_LT(glm::distance(linear.place_of({0.5f, 0.5f, 0.25f}, half), hinge), 0.3 * drawn);
+}
+
+// Dual quaternions cannot turn what has no volume.
+TEST(Skins, FlatBonesOfDualQuaternionsAreRefused) {
+  const auto refusal = [](const std::string& json) {
+    try {
+      compiled(json);
+    } catch (const Failure& failure) {
+      return std::string(failure.problem);
+    }
+    return std::string("none");
+  };
+  const std::string binds = R"("bind": [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], [1, 0, 0, -2, 0, 1, 0, 0, 0, 0, 0, 0]])";
+  EXPECT_EQ(refusal(with_skin(sleeve_film(kStill), binds)), "none");
+  EXPECT_EQ(refusal(with_skin(sleeve_film(kStill), binds + R"(, "blend": "dual-quaternions")")),
+            "flattens what follows 'fore', which dual quaternions cannot turn");
+  const std::string flat = R"({"name": "x", "model": "arm", "matrices": [{"frame": 0, "segments": {
+      "sleeve": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1]], "upper": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1]],
+      "fore": [[0, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1]]}}]})";
+  EXPECT_EQ(refusal(sleeve_film(flat)), "none");
+  EXPECT_EQ(refusal(with_skin(sleeve_film(flat), R"("blend": "dual-quaternions")")),
+            "has a skin whose bone 'fore' flattens what follows it, which dual quaternions cannot turn");
 }
 
 TEST(Skins, FollowProportions) {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
 #include "host/content/modeler/read_model.h"
 #include "host/images/picture_file.h"
@@ -61,8 +62,9 @@ Places places_of(const modeler::Model& model, const modeler::Joint& joint) {
     for (const modeler::Bone& bone : joint.segment->bones)
       bones.push_back(modeler::bone_matrix(frames[bone.joint], bone, joint));
     const modeler::Mesh& mesh = *model.shapes[joint.segment->shape].mesh;
+    const modeler::BentSkin skin(bones, joint.segment->blend);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-      places.push_back(modeler::skinned_place(mesh.vertices[v], mesh.bones[v], bones));
+      places.push_back(skin.place_of(mesh.vertices[v], mesh.bones[v]));
     return places;
   }
   for (const auto& vertex : model.shapes[joint.segment->shape].mesh->vertices)

@@ -11,6 +11,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/importer/glb.h"
@@ -148,8 +149,9 @@ Places posed(const modeler::Model& model, const Poses& poses) {
     bones.push_back(modeler::bone_matrix(frames[bone.joint], bone, skinned));
   const modeler::Mesh& mesh = *model.shapes[skinned.segment->shape].mesh;
   Places places;
+  const modeler::BentSkin skin(bones, skinned.segment->blend);
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
-    places.push_back(modeler::skinned_place(mesh.vertices[v], mesh.bones[v], bones));
+    places.push_back(skin.place_of(mesh.vertices[v], mesh.bones[v]));
   return places;
 }
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
-#include <span>
+#include <utility>
+
+#include "host/content/modeler/bent_skin.h"
 
 namespace mars::motion {
 namespace {
@@ -50,11 +52,11 @@ const modeler::VertexBones& followed_by(const modeler::ControlNet& net, const wi
 }
 
 // Of patches that follow a bone that counts.
-void add_bent_patches(const modeler::Shape& shape, std::span<const wire::Matrix> bones,
-                      const std::vector<bool>& counted, std::vector<glm::dvec3>& points) {
-  const std::vector<wire::Patch> bent = modeler::bent_patches(shape, bones);
+void add_bent_patches(const modeler::ControlNet& net, const modeler::BentSkin& skin, const std::vector<bool>& counted,
+                      std::vector<glm::dvec3>& points) {
+  const std::vector<wire::Patch> bent = skin.patches_of(net);
   for (std::size_t number = 0; number < bent.size(); ++number)
-    for (int i = 0; i < kGrid && counted[heaviest_bone(followed_by(*shape.net, shape.net->patches[number]))]; ++i)
+    for (int i = 0; i < kGrid && counted[heaviest_bone(followed_by(net, net.patches[number]))]; ++i)
       for (int j = 0; j < kGrid; ++j)
         points.push_back(patch_point(bent[number], double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
 }
@@ -67,12 +69,13 @@ void add_skin(const modeler::Model& model, const Posture& posture, const modeler
     matrices.push_back(modeler::bone_matrix(frame_in(model, posture, bone.joint), bone, joint));
     counted.push_back(counts(bone.joint));
   }
+  const modeler::BentSkin skin(std::move(matrices), joint.segment->blend);
   const modeler::Shape& shape = model.shapes[joint.segment->shape];
-  if (!shape.mesh) return add_bent_patches(shape, matrices, counted, points);
+  if (shape.net) return add_bent_patches(*shape.net, skin, counted, points);
   const modeler::Mesh& mesh = *shape.mesh;
   for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
     if (counted[heaviest_bone(mesh.bones[vertex])])
-      points.push_back(modeler::skinned_place(mesh.vertices[vertex], mesh.bones[vertex], matrices));
+      points.push_back(skin.place_of(mesh.vertices[vertex], mesh.bones[vertex]));
 }
 
 }  // namespace

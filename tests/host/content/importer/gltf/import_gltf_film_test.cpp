@@ -12,6 +12,7 @@
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/document/json_file.h"
 #include "host/content/film/compile.h"
+#include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/importer/glb.h"
@@ -51,9 +52,10 @@ Places vertices_of(const animator::Film& film, const wire::PackedFilm& compiled,
     const wire::Segment& segment = compiled.segments()[number++];
     std::vector<wire::Matrix> bones;
     for (const wire::Track& bone : compiled.bones_of(segment)) bones.push_back(compiled.matrix_at(bone, frame));
+    const modeler::BentSkin skin(bones, segment.blend);
     for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
       places.push_back(bones.empty() ? by(compiled.matrix_at(segment, frame), mesh.vertices[v])
-                                     : modeler::skinned_place(mesh.vertices[v], mesh.bones[v], bones));
+                                     : skin.place_of(mesh.vertices[v], mesh.bones[v]));
   }
   return places;
 }
