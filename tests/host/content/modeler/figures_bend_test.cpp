@@ -19,7 +19,7 @@
 namespace mars::modeler {
 namespace {
 
-constexpr double kSmooth = 0.5;    // degrees between normals of neighbours, where four patches meet at either end
+constexpr double kSmooth = 0.5;       // degrees between normals of neighbours, where four patches meet at either end
 constexpr double kMostVolume = 1.25;  // of a surface, bent, to what it is at rest; and the least the other way round
 
 // Frames of all joints with one turned by `pose`.
@@ -196,7 +196,7 @@ struct Skin {
 
 Skin skin_of(const Model& model, const Joint& joint) {
   const std::vector<wire::Patch> patches =
-      bent(joint, posed_frames(model, kNone, {})).patches_of(model.shapes[joint.segment->shape]);
+      bent(joint, posed_frames(model, kNone, {})).patches_of(*model.shapes[joint.segment->shape].net);
   const Surface surface(patches);
   return {&joint, surface, surface.volume(patches)};
 }
@@ -208,7 +208,7 @@ bool follows(const Model& model, const Joint& joint, std::size_t turned) {
 
 void check(const Model& model, const Skin& skin, const std::vector<Axes>& frames, const std::string& pose) {
   const BentSkin skinned = bent(*skin.joint, frames);
-  const std::vector<wire::Patch> now = skinned.patches_of(model.shapes[skin.joint->segment->shape]);
+  const std::vector<wire::Patch> now = skinned.patches_of(*model.shapes[skin.joint->segment->shape].net);
   EXPECT_LT(beyond(bounds_of(model, *skin.joint, skinned), now), 1e-5) << pose;
   EXPECT_EQ(skin.surface.cracks(now), 0u) << pose;
   EXPECT_LT(skin.surface.jump(now), kSmooth) << pose;
@@ -249,9 +249,9 @@ TEST_P(FiguresBend, ToEveryLimitWithoutCracksOrLines) {
   EXPECT_GT(poses, 100u);
 }
 
-const std::map<std::string, std::size_t> kOfMan{
-    {"trousers", 3},  {"shirt", 4},     {"head", 1},       {"left-ear", 0},  {"right-ear", 0},  {"left-arm", 1},
-    {"right-arm", 1}, {"left-shoe", 0}, {"right-shoe", 0}, {"left-sole", 0}, {"right-sole", 0}};
+const std::map<std::string, std::size_t> kOfMan{{"trousers", 3},   {"shirt", 4},     {"head", 1},      {"left-ear", 0},
+                                                {"right-ear", 0},  {"left-arm", 1},  {"right-arm", 1}, {"left-shoe", 0},
+                                                {"right-shoe", 0}, {"left-sole", 0}, {"right-sole", 0}};
 const std::map<std::string, std::size_t> kOfDog{
     {"body", 4}, {"left-hind-sock", 2}, {"right-hind-sock", 2}, {"left-fore-sock", 2}, {"right-fore-sock", 2}};
 
