@@ -77,13 +77,16 @@ class Beast:
             foot(f"{side}-{which}", before, points[-1], sign)
 
     def clothe(self, animal, coat, sock):
-        """The body on the pelvis, what is below the legs' seams on their lower parts."""
-        self.shapes["body"] = clothe(self.joints, "pelvis", "body", animal.body(), coat, self.unit)
+        """The body, and what is below the legs' seams on their lower parts."""
+        self.joint("body", "pelvis", self.places["pelvis"], {})
+        self.shapes["body"] = clothe(self.joints, "body", "body", animal.body(), coat, self.unit)
         for which in animal.legs:
             left = animal.sock(which)
             for side, cage in ("left", left), ("right", left.mirrored()):
                 shape = f"{side}-{which}-sock"
-                self.shapes[shape] = clothe(self.joints, f"{side}-{which}-cannon", shape, cage, sock, self.unit, 0)
+                cannon = f"{side}-{which}-cannon"
+                self.joint(shape, cannon, self.places[cannon], {})
+                self.shapes[shape] = clothe(self.joints, shape, shape, cage, sock, self.unit, 0)
 
     def model(self, limbs):
         for side in "left", "right":

@@ -29,6 +29,8 @@ JOINTS = [
     ("neck", "chest", (-0.015, 0, 0.265), {"x": (-25, 25), "y": (-35, 40), "z": (-40, 40)}, None, None),
     ("head", "neck", (0.022, 0, 0.07), {"x": (-20, 20), "y": (-30, 30), "z": (-40, 40)}, None, None),
     ("hair", "head", (0, 0, 0), {}, "hair", "hair"),
+    ("trousers", "pelvis", (0, 0, 0), {}, None, None),
+    ("shirt", "chest", (0, 0, 0), {}, None, None),
     ("mouth", "head", (0.0812, 0, 0.0271), {}, "mouth", "lips"),
 ]
 PAIRS = [
@@ -44,6 +46,7 @@ PAIRS = [
     ("toes", "foot", (BALL[0], 0, BALL[1]), {"y": (-70, 40)}, None, None),
     ("toe-sole", "toes", (0, 0, 0), {}, None, None),
     ("ear", "head", (0, 0, 0), {}, None, None),
+    ("arm", "upper-arm", (0, 0, 0), {}, None, None),
 ]
 # Of the joints of a finger and of the thumb, about their x axes, in which they bend.
 DIGITS = {"finger": [{"x": (-85, 35), "y": (-15, 15)}, {"x": (-95, 22)}, {"x": (-75, 15)}],
@@ -135,9 +138,9 @@ def face(side, sign, unit):
 
 # ---- Surfaces that bend: shape, the joint that has it, material, level. Those of a pair are the left ones.
 
-SURFACES = [(human_cages.trousers, "pelvis", "trousers", 1), (human_cages.shirt, "chest", "shirt", 1),
+SURFACES = [(human_cages.trousers, "trousers", "trousers", 1), (human_cages.shirt, "shirt", "shirt", 1),
             (human_cages.head, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 0),
-            (human_cages.arm, "left-upper-arm", "skin", 1), (human_cages.shoe, "left-foot", "shoe", 0),
+            (human_cages.arm, "left-arm", "skin", 1), (human_cages.shoe, "left-foot", "shoe", 0),
             (human_cages.sole, "left-sole", "rubber", 0)]
 
 
@@ -159,12 +162,12 @@ def dress(joints, unit):
 def lift_sleeves(joints):
     """The shirt's `bind`: it is made with lifted arms."""
     places = rest_places(joints)
-    skin = next(each for each in joints if each["name"] == "chest")["segment"]["skin"]
+    skin = next(each for each in joints if each["name"] == "shirt")["segment"]["skin"]
     skin["bind"] = []
     for bone in skin["joints"]:
         angle = human_cages.LIFTED if bone == "left-sleeve" else -human_cages.LIFTED if bone == "right-sleeve" else 0
         back = transposed(turn(angle, 0, 0))
-        place = applied(back, [a - b for a, b in zip(places["chest"], places[bone])])
+        place = applied(back, [a - b for a, b in zip(places["shirt"], places[bone])])
         skin["bind"].append([round(v, 6) + 0.0 for row, at in zip(back, place) for v in (*row, at)])
 
 
