@@ -139,7 +139,7 @@ def face(side, sign, unit):
 # ---- Surfaces that bend: shape, the joint that has it, material, level. Those of a pair are the left ones.
 
 SURFACES = [(human_cages.trousers, "trousers", "trousers", 1), (human_cages.shirt, "shirt", "shirt", 1),
-            (human_cages.head, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 0),
+            (human_cages.head_and_neck, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 0),
             (human_cages.arm, "left-arm", "skin", 1), (human_cages.shoe, "left-foot", "shoe", 0),
             (human_cages.sole, "left-sole", "rubber", 0)]
 
@@ -148,12 +148,12 @@ def dress(joints, unit):
     """Gives joints segments with skins. Returns their shapes."""
     shapes = {}
     for make, carrier, material, level in SURFACES:
-        cage = make()
+        cage, name = make(), make.__name__.replace("_", "-")
         if not carrier.startswith("left-"):
-            shapes[make.__name__] = clothe(joints, carrier, make.__name__, cage, material, unit, level)
+            shapes[name] = clothe(joints, carrier, name, cage, material, unit, level)
             continue
         for side, one in ("left", cage), ("right", cage.mirrored()):
-            shape = f"{side}-{make.__name__}"
+            shape = f"{side}-{name}"
             shapes[shape] = clothe(joints, carrier.replace("left", side), shape, one, material, unit, level)
     lift_sleeves(joints)
     return shapes

@@ -422,7 +422,7 @@ def head_row(row, angles, with_face):
     return points
 
 
-def head():
+def head_and_neck():
     cage = Cage()
     even = [360 * i / COLUMNS for i in range(COLUMNS)]
     angles = [angle - math.degrees(CROWDED * math.sin(math.radians(angle))) for angle in even]
