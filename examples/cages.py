@@ -66,7 +66,7 @@ class Cage:
         self.faces.append(corners)
 
     def bridge(self, low, high):
-        """Between two rings, which run counter-clockwise as seen from `high`. None: no point; faces there are a hole."""
+        """Between rings that run counter-clockwise as seen from `high`. None: no point; faces there are a hole."""
         for i, j in zip(range(len(low)), [*range(1, len(low)), 0]):
             corners = (low[i], low[j], high[j], high[i])
             if None not in corners:
@@ -87,11 +87,12 @@ class Cage:
             self.face(centre, ring[i], ring[i + 1], ring[(i + 2) % len(ring)])
 
     def fit(self, rounds=4, loose=()):
-        """Moves the points so that the surface comes near where they were; `loose` ones stay, which rounds the surface."""
+        """Moves the points so that the surface comes near where they were; `loose` ones stay, which rounds it."""
         targets = self.points
         stencils = [[(i, 1.0)] if i in loose else stencil for i, stencil in enumerate(self.limit_stencils())]
         for _ in range(rounds):
-            reached = [tuple(sum(w * self.points[i][axis] for i, w in stencil) for axis in range(3)) for stencil in stencils]
+            reached = [tuple(sum(w * self.points[i][axis] for i, w in stencil) for axis in range(3))
+                       for stencil in stencils]
             self.points = [tuple(p + t - r for p, t, r in zip(point, target, place))
                            for point, target, place in zip(self.points, targets, reached)]
         return self
@@ -116,8 +117,8 @@ class Cage:
                 stencils.append([(a, 2 / 3)] + [(b, 1 / 6) for b in rim])
                 continue
             n = len(edges[a])
-            sum_ = n * (n + 5)
-            stencils.append([(a, n * n / sum_)] + [(b, 4 / sum_) for b in edges[a]] + [(c, 1 / sum_) for c in across[a]])
+            part = 1 / (n * (n + 5))
+            stencils.append([(a, n * n * part), *((b, 4 * part) for b in edges[a]), *((c, part) for c in across[a])])
         return stencils
 
     def mirrored(self):

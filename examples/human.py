@@ -114,10 +114,10 @@ def digits(side, sign, unit):
     made = []
     for name, parent, place in digit_joints():
         finger, number = name.split("-")
-        row = joint(f"{side}-{name}", f"{side}-{parent}", place, DIGITS["thumb" if finger == "thumb" else "finger"][int(number) - 1],
-                    None, None, sign, unit)
+        limits = DIGITS["thumb" if finger == "thumb" else "finger"][int(number) - 1]
+        row = joint(f"{side}-{name}", f"{side}-{parent}", place, limits, None, None, sign, unit)
         if finger == "thumb":
-            places, directions, hinge = digit("thumb")
+            _, directions, hinge = digit("thumb")
             row["x_axis"] = scaled((hinge[0], sign * hinge[1], hinge[2]), 1)
             row["y_axis"] = scaled((sign * directions[0][0], directions[0][1], sign * directions[0][2]), 1)
         made.append(row)

@@ -94,7 +94,7 @@ def trousers():
     legs = {1: low[:6] + [back[0], front[0]], -1: low[6:] + [front[1], back[1]]}
     for side, top in legs.items():
         rings = [top]
-        around = [45 * i - 22.5 for i in range(8)] if side > 0 else [45 * i + 157.5 + 0 for i in range(8)]
+        around = [45 * i + (-22.5 if side > 0 else 157.5) for i in range(8)]
         for z, fore, aft, width, middle in LEGS:
             points = [(middle + x, side * LEG + y, z) for x, y in outline(around, fore, aft, width)]
             rings.append(cage.ring(points, lambda point, side=side: leg(side, point)))
@@ -123,8 +123,10 @@ SWELLINGS = [(1.345, 0.090, 34, 36, 0.004),  # breasts: height, reach, angle, re
              (1.30, 0.150, 180, 24, -0.012),  # furrow of the spine
              (1.39, 0.090, 140, 34, 0.008)]   # shoulder blades
 # Of the left arm's hole: angle of the trunk's ring, row, place, how much of the arm's turn it makes.
-HOLE = [(60, 1, (0.046, 0.140, 1.376), 0.34), (60, 2, (0.026, 0.134, 1.420), 0.20), (90, 2, (-0.020, 0.134, 1.438), 0.13),
-        (120, 2, (-0.066, 0.134, 1.424), 0.20), (120, 1, (-0.088, 0.140, 1.380), 0.34), (120, 0, (-0.073, 0.144, 1.322), 0.28),
+HOLE = [(60, 1, (0.046, 0.140, 1.376), 0.34), (60, 2, (0.026, 0.134, 1.420), 0.20),
+        (90, 2, (-0.020, 0.134, 1.438), 0.13),
+        (120, 2, (-0.066, 0.134, 1.424), 0.20), (120, 1, (-0.088, 0.140, 1.380), 0.34),
+        (120, 0, (-0.073, 0.144, 1.322), 0.28),
         (90, 0, (-0.015, 0.150, 1.298), 0.22), (60, 0, (0.043, 0.144, 1.318), 0.28)]
 # Along the arm from its shoulder: how far, front, back, width, tilt (further on its upper side).
 SLEEVE = [(0.015, 0.054, 0.057, 0.0475, 0.28),
@@ -390,8 +392,10 @@ HEAD_ROWS = [(-0.115, 0.056, 0.058, 0.064, -0.034, -0.2), (-0.085, 0.053, 0.058,
              (0.000, 0.056, 0.055, 0.0505, -0.012, -0.1), (0.008, 0.072, 0.083, 0.0545, 0.014, -0.25),
              (0.027, 0.081, 0.085, 0.0600, 0.006, -0.14), (0.041, 0.081, 0.089, 0.0630, 0.006, -0.04),
              (0.056, 0.085, 0.090, 0.0665, 0.002, 0), (0.073, 0.088, 0.092, 0.0695, 0, 0),
-             (0.093, 0.088, 0.094, 0.0715, 0, 0), (0.113, 0.0885, 0.095, 0.0725, 0, 0), (0.135, 0.0900, 0.095, 0.0735, 0, 0),
-             (0.166, 0.084, 0.087, 0.0710, 0, 0), (0.196, 0.065, 0.071, 0.0590, 0, 0), (0.213, 0.037, 0.041, 0.035, 0, 0)]
+             (0.093, 0.088, 0.094, 0.0715, 0, 0), (0.113, 0.0885, 0.095, 0.0725, 0, 0),
+             (0.135, 0.0900, 0.095, 0.0735, 0, 0),
+             (0.166, 0.084, 0.087, 0.0710, 0, 0), (0.196, 0.065, 0.071, 0.0590, 0, 0),
+             (0.213, 0.037, 0.041, 0.035, 0, 0)]
 COLUMNS, CROWDED = 14, 0.55               # of a row, closer together in front
 JAW = 5                                   # the first row that has a face
 FACE = [(0.056, 0.019, 0.062, 0, 16, 0.030),  # nose: height, reach below, above, angle, reach, how far out
@@ -403,7 +407,8 @@ FACE = [(0.056, 0.019, 0.062, 0, 16, 0.030),  # nose: height, reach below, above
         (0.004, 0.016, 0.018, 0, 30, 0.005),  # chin
         (0.010, 0.026, 0.030, 95, 40, 0.003)]  # angle of the jaw
 EAR = [(0.050, 0.005, 0.006, 0.003, 0.004), (0.058, 0.009, 0.009, 0.005, 0.002), (0.074, 0.011, 0.013, 0.006, -0.001),
-       (0.090, 0.013, 0.017, 0.0065, -0.004), (0.101, 0.011, 0.014, 0.006, -0.006), (0.107, 0.005, 0.007, 0.004, -0.006)]
+       (0.090, 0.013, 0.017, 0.0065, -0.004), (0.101, 0.011, 0.014, 0.006, -0.006),
+       (0.107, 0.005, 0.007, 0.004, -0.006)]
 
 
 def features(z, angle):
@@ -429,8 +434,9 @@ def head_and_neck():
     chain = ["chest", ("neck", 1.43, 1.50), ("head", 1.50, 1.548)]
     rings = []
     for number, row in enumerate(HEAD_ROWS):
-        weights = {"head": 1.0} if number >= JAW else None
-        rings.append(cage.ring(head_row(row, angles, number >= JAW), weights or (lambda point: along(chain, point[2]))))
+        above = number >= JAW
+        rings.append(cage.ring(head_row(row, angles, above),
+                               {"head": 1.0} if above else lambda point: along(chain, point[2])))
     cage.tube(rings)
     cage.cap(rings[-1], (HEAD[0] - 0.006, 0.0, HEAD[1] + 0.2200))
     return cage.fit()
