@@ -6,11 +6,10 @@ import math
 
 from cages import Cage, along, mixed, outline, smooth
 
-HIP, SPINE, CHEST, NECK = 0.925, 1.03, 1.20, 1.465   # heights of joints
 SHOULDER = (-0.02, 0.175, 1.40)
 LIFTED = 28
-ELBOW, WRIST = 0.30, 0.56                            # below the shoulder
-LEG, KNEE, ANKLE, BALL = 0.092, 0.49, 0.09, 0.115    # aside of the middle; heights; ahead of the ankle
+WRIST = 0.56                               # below the shoulder
+LEG, ANKLE, BALL = 0.092, 0.09, 0.115      # aside of the middle; height; ahead of the ankle
 
 
 # ---- Weights.
