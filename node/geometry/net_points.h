@@ -1,8 +1,8 @@
 // The control points of nets as bones move them, and the Bezier points that are means of these: each computed when it
-// is first asked for, so a node computes what its own patches take.
+// is first asked for, so a node computes what its own patches take. A point is `kNumbers` numbers: its place, or what
+// else has means.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,10 +12,10 @@
 
 namespace mars::geometry {
 
-template <typename Real>
+template <typename Real, std::size_t kNumbers>
 class NetPoints {
  public:
-  using Place = std::array<Real, 4>;  // the last is 0
+  using Place = std::array<Real, kNumbers>;
 
   // Forgets all; takes room for the film's nets at the first call only.
   void start(const wire::PackedFilm& film) {
@@ -27,7 +27,7 @@ class NetPoints {
     round_ = 1;
   }
 
-  // A Bezier point, where `move` puts a control point: std::array<Real, 3> of a wire::NetPoint. The sum begins with 0
+  // A Bezier point, where `move` puts a control point: a Place of a wire::NetPoint. The sum begins with 0
   // and follows the stencil.
   template <typename Move>
   const Place& bezier(const wire::PackedFilm& film, std::uint32_t stencil, const Move& move) {
@@ -53,8 +53,7 @@ class NetPoints {
     Known& known = points_[point];
     if (known.round == round_) return known.place;
     known.round = round_;
-    known.place[3] = 0;
-    std::ranges::copy(move(film.net_points()[point]), known.place.begin());
+    known.place = move(film.net_points()[point]);
     return known.place;
   }
 

@@ -118,7 +118,7 @@ shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t nu
   const wire::NetPatch& stencils = film.net_patches_of(shape_)[number];
   shape::EyePatch moved;
   for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
-    std::copy_n(net_.bezier(film, stencils[point], move).begin(), 3, moved.point[point]);
+    std::ranges::copy(net_.bezier(film, stencils[point], move), moved.point[point]);
   return moved;
 }
 

@@ -78,7 +78,7 @@ class SegmentPlace {
   shape::EyeMap map_{};
   EyeBones bones_;
   SkinBounds bounds_;
-  mutable NetPoints<float> net_;  // patches ask for the same points
+  mutable NetPoints<float, 3> net_;  // patches ask for the same points
   float scale_ = 1;
 };
 

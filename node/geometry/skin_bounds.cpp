@@ -148,6 +148,39 @@ SkinBounds::Box SkinBounds::round(std::span<const std::uint32_t> bones, const st
   return moved.wider(by, kBlendRounding);
 }
 
+// Whether roundings may choose on which side of the sum a quaternion is added.
+bool SkinBounds::in_doubt(std::span<const std::uint32_t> bones, std::span<const float> weights) const {
+  constexpr double kLeastCosine = 1e-3;
+  double sum[4] = {};
+  for (std::size_t i = 0; i < bones.size() && is_dual(); ++i) {
+    const auto& real = duals_[bones[i]].real;
+    double along = 0, square = 0;
+    for (int k = 0; k < 4; ++k) along += real[k] * sum[k], square += sum[k] * sum[k];
+    if (weights[i] > 0 && std::abs(along) < kLeastCosine * std::sqrt(square)) return true;
+    for (int k = 0; k < 4; ++k) sum[k] += (along < 0 ? -weights[i] : weights[i]) * real[k];
+  }
+  return false;
+}
+
+SkinBounds::Box SkinBounds::round(const wire::PackedFilm& film, const wire::NetPoint& point) const {
+  const auto bones = film.bones_of(point.skin);
+  const auto weights = film.weights_of(point.skin, 1);
+  if (in_doubt(bones, weights)) return round(bones, point.place, point.place);
+  wire::Matrix sum{};
+  shape::DualBlend<double> dual;
+  for (std::size_t i = 0; i < bones.size(); ++i) {
+    if (is_dual()) dual.add(duals_[bones[i]], weights[i]);
+    for (std::size_t r = 0; r < 3 && !is_dual(); ++r)
+      for (std::size_t c = 0; c < 4; ++c) sum.m[r][c] += double{weights[i]} * maps_[bones[i]].m[r][c];
+  }
+  if (is_dual()) dual.put(sum.m);
+  Box box;
+  for (std::size_t r = 0; r < 3; ++r)
+    box.low[r] = box.high[r] =
+        sum.m[r][0] * point.place[0] + sum.m[r][1] * point.place[1] + sum.m[r][2] * point.place[2] + sum.m[r][3];
+  return box;
+}
+
 SkinBounds::Box SkinBounds::round(const ShapeBoxes& boxes, std::uint32_t shape) const {
   MovedBox moved;
   const auto of_bones = boxes.of_bones(shape);
@@ -160,26 +193,6 @@ SkinBounds::Box SkinBounds::round(const ShapeBoxes& boxes, std::uint32_t shape) 
       visit(pair.bones[0], pair.bones[1], stretched(box_of(pair.box)));
   });
   return moved.wider(by, kBlendRounding);
-}
-
-std::array<double, 3> SkinBounds::place(const wire::PackedFilm& film, const wire::Skin& skin, std::uint32_t point,
-                                        std::uint32_t points, const std::array<float, 3>& at) const {
-  wire::Matrix sum{};
-  shape::DualBlend<double> dual;
-  const auto weights = film.weights_of(skin, points);
-  std::size_t number = point;
-  for (const std::uint32_t bone : film.bones_of(skin)) {
-    const double weight = weights[number];
-    if (is_dual()) dual.add(duals_[bone], weight);
-    for (std::size_t r = 0; r < 3 && !is_dual(); ++r)
-      for (std::size_t c = 0; c < 4; ++c) sum.m[r][c] += weight * maps_[bone].m[r][c];
-    number += points;
-  }
-  if (is_dual()) dual.put(sum.m);
-  std::array<double, 3> place;
-  for (std::size_t r = 0; r < 3; ++r)
-    place[r] = sum.m[r][0] * at[0] + sum.m[r][1] * at[1] + sum.m[r][2] * at[2] + sum.m[r][3];
-  return place;
 }
 
 }  // namespace mars::geometry

@@ -239,8 +239,7 @@ void SurfaceView::put_patch(const wire::Segment& segment, std::size_t number, st
   const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bent_.bones); };
   out.resize(wire::kPatchPoints);
   const wire::NetPatch& stencils = film.net_patches_of(segment.shape)[number];
-  for (std::size_t point = 0; point < out.size(); ++point)
-    std::copy_n(bent_.net.bezier(film, stencils[point], move).begin(), 3, out[point].begin());
+  for (std::size_t point = 0; point < out.size(); ++point) out[point] = bent_.net.bezier(film, stencils[point], move);
   put_net(out);
 }
 

@@ -43,7 +43,7 @@ class SurfaceView {
     std::vector<std::array<float, 3>> now, before;
     std::span<const wire::MeshTriangle> triangles;
     EyeBones bones;
-    NetPoints<float> net;
+    NetPoints<float, 3> net;
   };
 
   struct Place {

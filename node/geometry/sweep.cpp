@@ -245,25 +245,34 @@ class Pieces {
  private:
   template <typename Visit>
   void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
-    find_bones(scene_, segment, frame, scratch_.bones);
+    SkinBounds& bones = scratch_.bones;
+    find_bones(scene_, segment, frame, bones);
     scratch_.net.start(film_);
     for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
-      const SkinBounds::Box box = scratch_.bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high);
+      const SkinBounds::Box box = bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high);
       visit(corners_of(box.low, box.high));
     }
   }
 
+  // Of the patch's points, or, where some of them may be at several places, of the box round all these.
   Hull hull_of(const wire::NetPatch& patch) {
-    Hull hull;
-    const auto move = [&](const wire::NetPoint& point) {
-      return scratch_.bones.place(film_, point.skin, 0, 1, point.place);
-    };
+    Hull points;
+    Box all;
+    bool in_doubt = false;
+    const auto move = [&](const wire::NetPoint& point) { return both_ends(scratch_.bones.round(film_, point)); };
     for (const std::uint32_t stencil : patch) {
-      const auto& place = scratch_.net.bezier(film_, stencil, move);
-      hull.add({place[0], place[1], place[2]});
+      const auto& box = scratch_.net.bezier(film_, stencil, move);
+      const Point low{box[0], box[1], box[2]}, high{box[3], box[4], box[5]};
+      points.add(low);
+      all.add(low), all.add(high);
+      in_doubt |= low != high;
     }
-    return hull;
+    return in_doubt ? corners_of(all.low, all.high) : points;
+  }
+
+  static std::array<double, 6> both_ends(const SkinBounds::Box& box) {
+    return {box.low[0], box.low[1], box.low[2], box.high[0], box.high[1], box.high[2]};
   }
 
   const Scene& scene_;

@@ -25,7 +25,7 @@ struct SweptHull {
 // Room for what the segment with a skin that is swept takes, in the world.
 struct SkinScratch {
   SkinBounds bones;
-  NetPoints<double> net;
+  NetPoints<double, 6> net;  // boxes, low then high
 };
 
 class Sweep {

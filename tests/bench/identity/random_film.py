@@ -3,6 +3,8 @@ then compares its pixels over all ways to render. A film follows from its seed a
 import math
 import random
 
+from random_limb import limb
+
 SHAPES = {"box": {}, "sphere": {}, "ellipsoid": {}, "cylinder": {}, "disc": {"rim": (0.01, 0.4)}, "cone": {"top": (0, 1)},
           "capsule": {"ends": (0.05, 0.5)}, "rounded_box": {"edge": (0.01, 0.5)}, "torus": {"tube": (0.05, 0.24)},
           "teapot": {"lid": (0.8, 1.2)}}
@@ -45,6 +47,7 @@ class RandomFilm:
         self.add_settings()
         self.add_slopes()
         self.see_otherwise(random.Random(f"camera of {seed}"))
+        self.add_limb(random.Random(f"limb of {seed}"))
 
     def chance(self, part):
         return self.random.random() < part
@@ -250,6 +253,17 @@ class RandomFilm:
             camera.update(interaxial=round(apart, 4), convergence=convergence)
         if kind == "pixels":
             self.json["pixel_aspect"] = choose.choice([0.5, 1.25, 2, round(choose.uniform(0.1, 8), 3)])
+
+    # What bends. It has choices of its own: films of a seed stay.
+    def add_limb(self, choose):
+        if choose.random() < 0.5:
+            return
+        self.json["models"]["limb"], joints = limb(choose)
+        turn = lambda: [round(choose.uniform(-70, 70), 1) for _ in range(3)]
+        frames = sorted(choose.sample(range(self.frames + 2), min(3, self.frames)))
+        keys = [{"frame": frame, "pose": {joint: turn() for joint in choose.sample(joints, 2)}} for frame in frames]
+        keys[0]["place"] = [round(choose.uniform(-1, 1), 2) for _ in range(3)]
+        self.json["actors"].append({"name": "limb", "model": "limb", "keys": keys})
 
     # A figure of the library that does something, and a few edits.
     def add_figure(self):

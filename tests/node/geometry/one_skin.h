@@ -1,14 +1,14 @@
 // A film of one segment with a skin of random points and bones, for tests.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
-
-#include <gtest/gtest.h>
 
 #include "node/geometry/meshlets.h"
 #include "node/geometry/segment_place.h"
