@@ -79,7 +79,7 @@ TEST_F(Walk, FeetOnTheFloorStayInPlace) {
         }
       }
     }
-    EXPECT_GT(held, 3000u) << "points that were measured";
+    EXPECT_GT(held, 1500u) << "points that were measured";
   }
   RecordProperty("most_millimetres", std::to_string(most / kMillimetre));
 }
