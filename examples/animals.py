@@ -1,9 +1,12 @@
 """A horse and a dog, for make_figures.py: in metres, until the film's unit scales them.
 
-They stand along z and look along x; y is to their left. Each part is a smooth surface through rings about a line.
+They stand along z and look along x; y is to their left. animal_cages.py makes their bodies; what is rigid on them is a
+smooth surface through rings about a line.
 """
 import math
 
+import animal_cages
+from cages import clothe
 from human import glazed, soft
 
 ROUND = 8                                               # control points of a ring
@@ -39,15 +42,16 @@ class Beast:
     def scaled(self, vector):
         return [round(x * self.unit, 4) + 0.0 for x in vector]
 
-    def joint(self, name, parent, place, limits, shape, sbb, material, axes=None, **options):
+    def joint(self, name, parent, place, limits, shape=None, sbb=None, material=None, axes=None, **options):
         """`place` is in the world, at rest."""
         self.places[name] = place
         origin = self.places[parent] if parent else (0, 0, 0)
         self.joints.append({"name": name} | ({"parent": parent} if parent else {}) |
                            {"place": self.scaled([a - b for a, b in zip(place, origin)])} | (axes or {}) |
-                           {"limits": {axis: list(limit) for axis, limit in limits.items()},
-                            "segment": {"shape": shape, **options, "sbb": [self.scaled(corner) for corner in sbb],
-                                        "material": material}})
+                           {"limits": {axis: list(limit) for axis, limit in limits.items()}})
+        if shape:
+            self.joints[-1]["segment"] = {"shape": shape, **options, "sbb": [self.scaled(corner) for corner in sbb],
+                                          "material": material}
 
     def part(self, name, parent, place, limits, form, material, shape=None):
         """A joint with a loft whose line is in the world; the shape is made once for both sides."""
@@ -61,17 +65,28 @@ class Beast:
     def ball(self, name, parent, place, radii, material):
         self.joint(name, parent, place, {}, "ellipsoid", [[-r for r in radii], list(radii)], material)
 
-    def leg(self, which, parent, names, points, forms, limits, foot, materials):
+    def leg(self, which, parent, points, foot):
         """Joints of both sides: `points` (x, y, z) of the left one; `foot` makes what stands."""
         for side, sign in ("left", 1), ("right", -1):
             before = parent
-            for name, (x, y, z), form, limit, material in zip(names, points, forms, limits, materials):
+            for name, (x, y, z), limits in zip(NAMES[which], points, LIMITS[which]):
                 own = f"{side}-{which}-{name}"
-                self.part(own, before, (x, sign * y, z),
-                          {a: v if a == "y" or sign == 1 else (-v[1], -v[0]) for a, v in limit.items()}, form, material,
-                          f"{which}-{name}")
+                self.joint(own, before, (x, sign * y, z),
+                           {a: v if a == "y" or sign == 1 else (-v[1], -v[0]) for a, v in limits.items()})
                 before = own
             foot(f"{side}-{which}", before, points[-1], sign)
+
+    def clothe(self, animal, coat, sock):
+        """The body, and what is below the legs' seams on their lower parts."""
+        self.joint("body", "pelvis", self.places["pelvis"], {})
+        self.shapes["body"] = clothe(self.joints, "body", "body", animal.body(), coat, self.unit)
+        for which in animal.legs:
+            left = animal.sock(which)
+            for side, cage in ("left", left), ("right", left.mirrored()):
+                shape = f"{side}-{which}-sock"
+                cannon = f"{side}-{which}-cannon"
+                self.joint(shape, cannon, self.places[cannon], {})
+                self.shapes[shape] = clothe(self.joints, shape, shape, cage, sock, self.unit, 0)
 
     def model(self, limbs):
         for side in "left", "right":
@@ -90,34 +105,16 @@ TRUNK = {"x": (-25, 25), "y": (-40, 40), "z": (-40, 40)}
 NECK = {"x": (-20, 20), "y": (-40, 50), "z": (-45, 45)}
 
 
-def xz(point):
-    return point[0], point[2]
-
-
 def horse(unit):
     coat, dark = "coat", "mane"
     beast = Beast(unit, {coat: soft([0.48, 0.25, 0.12], 0.12, 24), dark: soft([0.13, 0.09, 0.07], 0.08, 16),
                          "sock": soft([0.24, 0.13, 0.08], 0.1, 20), "hoof": glazed([0.20, 0.17, 0.15], 0.35),
                          "eye": glazed([0.05, 0.04, 0.04], 0.1)})
-    beast.part("pelvis", None, (-0.46, 0, 1.24), TRUNK, ((-0.88, 1.245), (0.28, 1.20), [
-        (0.00, 0.05, 0.07, -0.02), (0.04, 0.15, 0.17, -0.01), (0.14, 0.235, 0.245, 0.01), (0.30, 0.272, 0.28, 0.01),
-        (0.48, 0.28, 0.278, 0), (0.66, 0.284, 0.284, -0.005), (0.80, 0.28, 0.285, -0.01), (0.93, 0.24, 0.25, 0),
-        (1, 0.15, 0.16, 0)]), coat)
-    beast.part("chest", "pelvis", (-0.02, 0, 1.25), TRUNK, ((-0.42, 1.222), (0.74, 1.19), [
-        (0.00, 0.15, 0.15, 0), (0.06, 0.253, 0.252, 0), (0.14, 0.28, 0.279, 0), (0.27, 0.287, 0.29, -0.005),
-        (0.42, 0.288, 0.305, -0.005), (0.60, 0.272, 0.33, 0.015), (0.74, 0.25, 0.345, 0.035), (0.87, 0.215, 0.29, 0.02),
-        (0.97, 0.15, 0.19, 0), (1, 0.085, 0.11, 0)]), coat)
-    beast.part("neck", "chest", (0.58, 0, 1.30), NECK, ((0.46, 1.20), (1.12, 1.84), [
-        (0.02, 0.10, 0.19, 0), (0.12, 0.16, 0.27, 0), (0.32, 0.135, 0.235, -0.005), (0.55, 0.10, 0.185, 0),
-        (0.78, 0.082, 0.145, 0.01), (0.93, 0.078, 0.125, 0.005), (1.0, 0.055, 0.08, 0)]), coat)
-    beast.part("mane", "neck", (0.58, 0, 1.30), {}, ((0.52, 1.56), (1.06, 2.0), [
-        (-0.08, 0.014, 0.03, -0.05), (0.1, 0.03, 0.075, -0.035), (0.4, 0.034, 0.09, -0.03), (0.7, 0.034, 0.09, -0.045),
-        (0.95, 0.03, 0.07, -0.07), (1.04, 0.015, 0.03, -0.09)]), dark)
-    beast.part("head", "neck", (1.08, 0, 1.82), {"x": (-20, 20), "y": (-45, 40), "z": (-40, 40)},
-               ((1.03, 1.90), (1.42, 1.40), [
-                   (0.00, 0.05, 0.05, -0.01), (0.07, 0.085, 0.105, -0.015), (0.24, 0.10, 0.145, -0.02),
-                   (0.42, 0.086, 0.122, 0), (0.62, 0.06, 0.086, 0.012), (0.82, 0.058, 0.074, 0.01),
-                   (0.95, 0.056, 0.066, 0), (1.0, 0.032, 0.04, 0)]), coat)
+    beast.joint("pelvis", None, (-0.46, 0, 1.24), TRUNK)
+    beast.joint("chest", "pelvis", (-0.02, 0, 1.25), TRUNK)
+    beast.joint("neck", "chest", (0.58, 0, 1.30), NECK)
+    beast.joint("mane", "neck", (0.58, 0, 1.30), {})
+    beast.joint("head", "neck", (1.08, 0, 1.82), {"x": (-20, 20), "y": (-45, 40), "z": (-40, 40)})
     for side, sign in ("left", 1), ("right", -1):
         beast.ball(f"{side}-eye", "head", (1.165, sign * 0.083, 1.775), (0.028, 0.02, 0.028), "eye")
         beast.ball(f"{side}-nostril", "head", (1.415, sign * 0.042, 1.455), (0.016, 0.012, 0.02), "eye")
@@ -137,31 +134,10 @@ def horse(unit):
 
     hind = [(-0.52, 0.15, 1.18), (-0.36, 0.16, 0.93), (-0.64, 0.14, 0.55), (-0.62, 0.14, 0.19)]
     fore = [(0.50, 0.15, 1.24), (0.40, 0.155, 0.90), (0.45, 0.14, 0.50), (0.46, 0.14, 0.18)]
-    low = lambda p: (p[0] + 0.06, 0.075)
-    beast.leg("hind", "pelvis", NAMES["hind"], hind, [
-        ((-0.56, 1.36), (-0.37, 0.82), [(0.0, 0.03, 0.10, 0.05), (0.16, 0.09, 0.20, 0.04), (0.42, 0.115, 0.24, 0.04),
-                                        (0.66, 0.115, 0.21, 0.03), (0.86, 0.09, 0.14, 0.01), (1, 0.045, 0.06, 0)]),
-        (xz(hind[1]), xz(hind[2]), [(-0.10, 0.05, 0.06, 0), (0.0, 0.082, 0.115, 0), (0.25, 0.08, 0.115, -0.005),
-                                    (0.55, 0.056, 0.075, 0), (0.82, 0.042, 0.05, 0), (1, 0.045, 0.055, 0),
-                                    (1.10, 0.03, 0.035, 0)]),
-        (xz(hind[2]), xz(hind[3]), [(-0.16, 0.02, 0.03, -0.02), (-0.05, 0.044, 0.06, -0.008), (0.12, 0.043, 0.056, 0),
-                                    (0.35, 0.032, 0.038, 0), (0.75, 0.030, 0.036, 0), (0.97, 0.04, 0.048, -0.004),
-                                    (1.12, 0.02, 0.025, 0)]),
-        (xz(hind[3]), low(hind[3]), [(-0.25, 0.022, 0.025, 0), (0.0, 0.04, 0.046, 0), (0.5, 0.036, 0.040, 0),
-                                     (1, 0.046, 0.05, 0), (1.2, 0.04, 0.04, 0)])],
-        LIMITS["hind"], hoof, (coat, coat, "sock", "sock"))
-    beast.leg("fore", "chest", NAMES["fore"], fore, [
-        ((0.50, 1.42), (0.40, 0.84), [(0.0, 0.03, 0.07, 0), (0.15, 0.075, 0.14, 0), (0.42, 0.10, 0.185, 0.01),
-                                      (0.7, 0.10, 0.155, 0), (0.9, 0.08, 0.105, 0), (1.02, 0.04, 0.05, 0)]),
-        (xz(fore[1]), xz(fore[2]), [(-0.14, 0.04, 0.05, 0), (0.0, 0.076, 0.095, 0), (0.25, 0.072, 0.086, 0),
-                                    (0.6, 0.05, 0.056, 0), (0.88, 0.042, 0.047, 0), (1, 0.045, 0.05, 0),
-                                    (1.10, 0.03, 0.03, 0)]),
-        (xz(fore[2]), xz(fore[3]), [(-0.14, 0.025, 0.03, 0), (-0.04, 0.045, 0.052, 0.004), (0.14, 0.042, 0.048, 0),
-                                    (0.38, 0.030, 0.034, 0), (0.75, 0.029, 0.034, 0), (0.97, 0.038, 0.046, -0.004),
-                                    (1.12, 0.02, 0.025, 0)]),
-        (xz(fore[3]), low(fore[3]), [(-0.25, 0.022, 0.025, 0), (0.0, 0.038, 0.045, 0), (0.5, 0.035, 0.039, 0),
-                                     (1, 0.045, 0.05, 0), (1.2, 0.04, 0.04, 0)])],
-        LIMITS["fore"], hoof, (coat, coat, "sock", "sock"))
+    beast.leg("hind", "pelvis", hind, hoof)
+    beast.leg("fore", "chest", fore, hoof)
+    beast.clothe(animal_cages.HORSE, coat, "sock")
+    beast.shapes["mane"] = clothe(beast.joints, "mane", "mane", animal_cages.mane(), dark, unit, 0)
     return beast.model({"pelvis": "pelvis", "chest": "chest", "neck": "neck", "head": "head"})
 
 
@@ -169,20 +145,10 @@ def dog(unit):
     fur, light = "fur", "belly"
     beast = Beast(unit, {fur: soft([0.62, 0.40, 0.20], 0.08, 16), light: soft([0.88, 0.76, 0.58], 0.06, 14),
                          "black": glazed([0.06, 0.05, 0.05], 0.2), "ear": soft([0.36, 0.21, 0.11], 0.06, 14)})
-    beast.part("pelvis", None, (-0.24, 0, 0.50), TRUNK, ((-0.36, 0.495), (0.12, 0.482), [
-        (0.00, 0.03, 0.04, 0), (0.05, 0.062, 0.072, 0), (0.18, 0.088, 0.096, 0), (0.38, 0.089, 0.097, 0.008),
-        (0.60, 0.092, 0.101, 0.004), (0.80, 0.094, 0.106, 0), (0.92, 0.08, 0.09, 0), (1, 0.05, 0.05, 0)]), fur)
-    beast.part("chest", "pelvis", (-0.05, 0, 0.51), TRUNK, ((-0.20, 0.493), (0.36, 0.465), [
-        (0.00, 0.05, 0.055, 0), (0.06, 0.08, 0.088, 0.005), (0.16, 0.0915, 0.0995, 0.004), (0.32, 0.097, 0.108, 0),
-        (0.50, 0.106, 0.128, -0.006), (0.68, 0.107, 0.137, -0.005), (0.84, 0.094, 0.122, 0.005), (0.95, 0.068, 0.088, 0.01),
-        (1, 0.035, 0.045, 0.01)]), fur)
-    beast.part("neck", "chest", (0.27, 0, 0.53), NECK, ((0.22, 0.49), (0.45, 0.72), [
-        (0.0, 0.05, 0.07, 0), (0.15, 0.08, 0.10, 0), (0.45, 0.072, 0.086, 0), (0.75, 0.066, 0.076, 0),
-        (0.95, 0.056, 0.062, 0), (1.02, 0.03, 0.03, 0)]), fur)
-    beast.part("head", "neck", (0.42, 0, 0.70), {"x": (-25, 25), "y": (-45, 45), "z": (-55, 55)},
-               ((0.365, 0.735), (0.56, 0.715), [
-                   (0.0, 0.03, 0.035, 0), (0.1, 0.068, 0.07, 0), (0.35, 0.085, 0.082, 0.005), (0.62, 0.076, 0.072, 0.005),
-                   (0.86, 0.052, 0.05, -0.005), (1, 0.03, 0.03, -0.01)]), fur)
+    beast.joint("pelvis", None, (-0.24, 0, 0.50), TRUNK)
+    beast.joint("chest", "pelvis", (-0.05, 0, 0.51), TRUNK)
+    beast.joint("neck", "chest", (0.27, 0, 0.53), NECK)
+    beast.joint("head", "neck", (0.42, 0, 0.70), {"x": (-25, 25), "y": (-45, 45), "z": (-55, 55)})
     beast.part("snout", "head", (0.50, 0, 0.695), {}, ((0.48, 0.70), (0.66, 0.672), [
         (0.0, 0.045, 0.045, 0), (0.3, 0.05, 0.047, 0), (0.65, 0.042, 0.038, 0), (0.92, 0.036, 0.032, 0),
         (1, 0.018, 0.018, 0)]), light)
@@ -203,25 +169,7 @@ def dog(unit):
 
     hind = [(-0.26, 0.075, 0.48), (-0.18, 0.082, 0.345), (-0.315, 0.075, 0.19), (-0.285, 0.075, 0.055)]
     fore = [(0.245, 0.078, 0.47), (0.185, 0.084, 0.315), (0.205, 0.075, 0.15), (0.215, 0.075, 0.05)]
-    low = lambda p: (p[0] + 0.03, 0.03)
-    beast.leg("hind", "pelvis", NAMES["hind"], hind, [
-        ((-0.275, 0.545), (-0.185, 0.31), [(0.0, 0.02, 0.04, 0.01), (0.15, 0.045, 0.075, 0.01), (0.45, 0.054, 0.086, 0.01),
-                                           (0.75, 0.047, 0.066, 0), (0.95, 0.034, 0.042, 0), (1.03, 0.015, 0.02, 0)]),
-        (xz(hind[1]), xz(hind[2]), [(-0.14, 0.018, 0.02, 0), (0.0, 0.036, 0.044, 0), (0.3, 0.034, 0.042, 0),
-                                    (0.65, 0.024, 0.027, 0), (1, 0.022, 0.026, 0), (1.1, 0.012, 0.015, 0)]),
-        (xz(hind[2]), xz(hind[3]), [(-0.2, 0.01, 0.012, 0), (0.0, 0.022, 0.027, 0), (0.3, 0.019, 0.022, 0),
-                                    (0.75, 0.020, 0.022, 0), (1, 0.024, 0.026, 0), (1.15, 0.012, 0.012, 0)]),
-        (xz(hind[3]), low(hind[3]), [(-0.4, 0.012, 0.014, 0), (0.0, 0.025, 0.026, 0), (0.6, 0.028, 0.026, 0),
-                                     (1.2, 0.02, 0.018, 0)])],
-        LIMITS["hind"], paw, (fur, fur, light, light))
-    beast.leg("fore", "chest", NAMES["fore"], fore, [
-        ((0.255, 0.545), (0.188, 0.29), [(0.0, 0.015, 0.03, 0), (0.18, 0.036, 0.058, 0), (0.5, 0.046, 0.068, 0),
-                                         (0.8, 0.04, 0.05, 0), (0.97, 0.03, 0.034, 0), (1.05, 0.014, 0.016, 0)]),
-        (xz(fore[1]), xz(fore[2]), [(-0.16, 0.016, 0.02, 0), (0.0, 0.034, 0.038, 0), (0.35, 0.031, 0.034, 0),
-                                    (0.75, 0.025, 0.026, 0), (1, 0.024, 0.025, 0), (1.12, 0.012, 0.014, 0)]),
-        (xz(fore[2]), xz(fore[3]), [(-0.2, 0.012, 0.012, 0), (0.0, 0.024, 0.025, 0), (0.5, 0.022, 0.023, 0),
-                                    (1, 0.025, 0.026, 0), (1.2, 0.012, 0.012, 0)]),
-        (xz(fore[3]), low(fore[3]), [(-0.5, 0.012, 0.014, 0), (0.0, 0.025, 0.026, 0), (0.6, 0.028, 0.026, 0),
-                                     (1.2, 0.02, 0.018, 0)])],
-        LIMITS["fore"], paw, (fur, fur, light, light))
+    beast.leg("hind", "pelvis", hind, paw)
+    beast.leg("fore", "chest", fore, paw)
+    beast.clothe(animal_cages.DOG, fur, light)
     return beast.model({"pelvis": "pelvis", "chest": "chest", "neck": "neck", "head": "head"})

@@ -4,59 +4,53 @@ He stands along z and looks along x; y is to his left. Proportions: seven and a 
 """
 import math
 
+import human_cages
+from cages import clothe, rest_places, scaled
+from human_cages import digit, digit_joints
+
 HIP, THIGH, SHIN, ANKLE = 0.925, 0.435, 0.40, 0.09  # height of the hips; lengths; height of the ankles
 HIP_SIDE = 0.092
 BALL = (0.115, -0.065)                             # of the foot, from the ankle: where the toes bend
 HEEL = (-0.063, -0.09)                             # on which the foot comes down
 
-# The library's shapes at his size, from the joint that carries them.
+# What is rigid: shapes of the library at his size, from the joint that carries them.
 BOXES = {
-    "head": [[-0.0956, -0.0869, -0.0276], [0.1074, 0.0869, 0.2090]],
     "hair": [[-0.1064, -0.0779, 0.0215], [0.0921, 0.0779, 0.2285]],
-    "neck": [[-0.0733, -0.0690, -0.0688], [0.0567, 0.0690, 0.1250]],
-    "torso": [[-0.1295, -0.1848, -0.1500], [0.1255, 0.1848, 0.2970]],
-    "abdomen": [[-0.1313, -0.1834, -0.0960], [0.1228, 0.1834, 0.1750]],
-    "pelvis": [[-0.1196, -0.1661, -0.0880], [0.1065, 0.1661, 0.1650]],
-    "upper_arm": [[-0.0467, -0.0447, -0.3390], [0.0510, 0.0447, 0.0130]],
-    "sleeve": [[-0.0627, -0.0560, -0.1850], [0.0610, 0.0560, 0.0280]],
-    "forearm": [[-0.0435, -0.0418, -0.2820], [0.0442, 0.0418, 0.0380]],
-    "hand": [[-0.0411, -0.0384, -0.1760], [0.0654, 0.0181, 0.0300]],
-    "thigh": [[-0.1060, -0.0847, -0.4920], [0.0913, 0.0847, 0.0780]],
-    "shin": [[-0.0733, -0.0590, -0.3793], [0.0603, 0.0590, 0.0500]],
-    "foot": [[-0.0700, -0.0494, -0.0885], [0.1390, 0.0494, 0.0348]],
-    "toes": [[-0.0220, -0.0501, -0.0235], [0.0800, 0.0501, 0.0273]],
+    "mouth": [[-0.0114, -0.0209, -0.0052], [0.0076, 0.0209, 0.0052]],
 }
+SHAPES = {"mouth": "sphere"}
 
-# Others made of the same shapes.
-BOXES |= {"shoulder": [[-0.070, -0.060, -0.085], [0.060, 0.172, 0.046]],
-          "mouth": [[-0.0114, -0.0209, -0.0052], [0.0076, 0.0209, 0.0052]],
-          "sole": [[-0.074, -0.0515, -0.0900], [0.110, 0.0515, -0.0580]],
-          "toe-sole": [[-0.032, -0.0525, -0.0250], [0.0855, 0.0525, -0.0040]]}
-SHAPES = {"shoulder": "sphere", "mouth": "sphere", "sole": "foot", "toe-sole": "toes"}
-
-# Joint: parent, place, limits about x, y, z, shape and material. Those of a pair are the left ones.
+# Joint: parent, place, limits about x, y, z, and of what is rigid its shape and material. Those of a
+# pair are the left ones.
 JOINTS = [
-    ("pelvis", None, (0, 0, HIP), {"x": (-40, 40), "y": (-40, 60), "z": (-60, 60)}, "pelvis", "trousers"),
-    ("spine", "pelvis", (-0.005, 0, 0.105), {"x": (-20, 20), "y": (-20, 45), "z": (-15, 15)}, "abdomen", "shirt"),
-    ("chest", "spine", (0, 0, 0.17), {"x": (-20, 20), "y": (-15, 35), "z": (-30, 30)}, "torso", "shirt"),
-    ("neck", "chest", (-0.015, 0, 0.265), {"x": (-25, 25), "y": (-35, 40), "z": (-40, 40)}, "neck", "skin"),
-    ("head", "neck", (0.022, 0, 0.07), {"x": (-20, 20), "y": (-30, 30), "z": (-40, 40)}, "head", "skin"),
+    ("pelvis", None, (0, 0, HIP), {"x": (-40, 40), "y": (-40, 60), "z": (-60, 60)}, None, None),
+    ("spine", "pelvis", (-0.005, 0, 0.105), {"x": (-20, 20), "y": (-20, 45), "z": (-15, 15)}, None, None),
+    ("chest", "spine", (0, 0, 0.17), {"x": (-20, 20), "y": (-15, 35), "z": (-30, 30)}, None, None),
+    ("neck", "chest", (-0.015, 0, 0.265), {"x": (-25, 25), "y": (-35, 40), "z": (-40, 40)}, None, None),
+    ("head", "neck", (0.022, 0, 0.07), {"x": (-20, 20), "y": (-30, 30), "z": (-40, 40)}, None, None),
     ("hair", "head", (0, 0, 0), {}, "hair", "hair"),
+    ("trousers", "pelvis", (0, 0, 0), {}, None, None),
+    ("shirt", "chest", (0, 0, 0), {}, None, None),
     ("mouth", "head", (0.0812, 0, 0.0271), {}, "mouth", "lips"),
 ]
 PAIRS = [
-    ("clavicle", "chest", (-0.015, 0.05, 0.20), {"x": (-10, 35), "z": (-25, 25)}, "shoulder", "shirt"),
-    ("upper-arm", "clavicle", (0, 0.125, 0), {"x": (-30, 170), "y": (-170, 55), "z": (-80, 80)}, "upper_arm", "skin"),
-    ("sleeve", "upper-arm", (0, 0, 0), {}, "sleeve", "shirt"),
-    ("forearm", "upper-arm", (0, 0, -0.30), {"y": (-145, 0), "z": (-80, 80)}, "forearm", "skin"),
-    ("hand", "forearm", (0, 0, -0.26), {"x": (-80, 70), "y": (-20, 30)}, "hand", "skin"),
-    ("thigh", "pelvis", (0, HIP_SIDE, 0), {"x": (-25, 45), "y": (-120, 25), "z": (-40, 45)}, "thigh", "trousers"),
-    ("shin", "thigh", (0, 0, -THIGH), {"y": (0, 150)}, "shin", "trousers"),
-    ("foot", "shin", (0, 0, -SHIN), {"x": (-30, 25), "y": (-30, 50), "z": (-20, 20)}, "foot", "shoe"),
-    ("sole", "foot", (0, 0, 0), {}, "sole", "rubber"),
-    ("toes", "foot", (BALL[0], 0, BALL[1]), {"y": (-70, 40)}, "toes", "shoe"),
-    ("toe-sole", "toes", (0, 0, 0), {}, "toe-sole", "rubber"),
+    ("clavicle", "chest", (-0.015, 0.05, 0.20), {"x": (-10, 35), "z": (-25, 25)}, None, None),
+    ("upper-arm", "clavicle", (0, 0.125, 0), {"x": (-30, 170), "y": (-170, 55), "z": (-80, 80)}, None, None),
+    ("sleeve", "upper-arm", (0, 0, 0), {}, None, None),
+    ("forearm", "upper-arm", (0, 0, -0.30), {"y": (-145, 0), "z": (-80, 80)}, None, None),
+    ("hand", "forearm", (0, 0, -0.26), {"x": (-80, 70), "y": (-20, 30)}, None, None),
+    ("thigh", "pelvis", (0, HIP_SIDE, 0), {"x": (-25, 45), "y": (-120, 25), "z": (-40, 45)}, None, None),
+    ("shin", "thigh", (0, 0, -THIGH), {"y": (0, 150)}, None, None),
+    ("foot", "shin", (0, 0, -SHIN), {"x": (-30, 25), "y": (-30, 50), "z": (-20, 20)}, None, None),
+    ("sole", "foot", (0, 0, 0), {}, None, None),
+    ("toes", "foot", (BALL[0], 0, BALL[1]), {"y": (-70, 40)}, None, None),
+    ("toe-sole", "toes", (0, 0, 0), {}, None, None),
+    ("ear", "head", (0, 0, 0), {}, None, None),
+    ("arm", "upper-arm", (0, 0, 0), {}, None, None),
 ]
+# Of the joints of a finger and of the thumb, about their x axes, in which they bend.
+DIGITS = {"finger": [{"x": (-85, 35), "y": (-15, 15)}, {"x": (-95, 22)}, {"x": (-75, 15)}],
+          "thumb": [{"x": (-25, 35), "y": (-15, 15), "z": (-25, 25)}, {"x": (-15, 55)}, {"x": (-20, 75)}]}
 # What commands like walk call the joints of a side.
 LIMBS = [("hip", "thigh"), ("knee", "shin"), ("ankle", "foot"), ("toes", "toes"),
          ("shoulder", "upper-arm"), ("elbow", "forearm"), ("wrist", "hand")]
@@ -86,42 +80,95 @@ MATERIALS = {"skin": soft([0.87, 0.64, 0.50], 0.10, 24), "hair": soft([0.22, 0.1
              "iris": glazed([0.13, 0.10, 0.10], 0.15)}
 
 
-def scaled(vector, unit):
-    return [round(x * unit, 4) + 0.0 for x in vector]
-
-
 def human(unit):
     """The model, a metre being `unit` long."""
-    def joint(name, parent, place, limits, shape, material, sign=1):
-        made = {"name": name} | ({"parent": parent} if parent else {})
-        made |= {"place": scaled((place[0], sign * place[1], place[2]), unit),
-                 "limits": {axis: list(limit) if axis == "y" or sign == 1 else [-limit[1], -limit[0]]
-                            for axis, limit in limits.items()}}
-        if shape:
-            (x0, y0, z0), (x1, y1, z1) = BOXES[shape]
-            ys = (y0, y1) if sign == 1 else (-y1, -y0)
-            if shape == "hand":
-                shape = "left_hand" if sign == 1 else "right_hand"
-            made["segment"] = {"shape": SHAPES.get(shape, shape),
-                               "sbb": [scaled((x0, ys[0], z0), unit), scaled((x1, ys[1], z1), unit)],
-                               "material": material}
-        return made
-
-    joints = [joint(*row) for row in JOINTS]
+    joints = [joint(*row, unit=unit) for row in JOINTS]
     for side, sign in ("left", 1), ("right", -1):
-        for name, parent, place, limits, shape, material in PAIRS:
-            joints.append(joint(f"{side}-{name}", parent if parent in ("chest", "pelvis") else f"{side}-{parent}", place,
-                                limits, shape, material, sign))
-        for name, (x, y, z), radii, aside, material in FACE:
-            c, s = math.cos(math.radians(aside)), sign * math.sin(math.radians(aside))
-            joints.append({"name": f"{side}-{name}", "parent": "head", "place": scaled((x, sign * y, z), unit),
-                           **({"x_axis": scaled((c, s, 0), 1), "y_axis": scaled((-s, c, 0), 1)} if aside else {}),
-                           "limits": {},
-                           "segment": {"shape": "sphere", "sbb": [scaled([-r for r in radii], unit), scaled(radii, unit)],
-                                       "material": material}})
+        for name, parent, *rest in PAIRS:
+            above = parent if parent in ("chest", "head", "pelvis") else f"{side}-{parent}"
+            joints.append(joint(f"{side}-{name}", above, *rest, sign, unit))
+        joints += digits(side, sign, unit)
+        joints += face(side, sign, unit)
+    shapes = dress(joints, unit)
     limbs = {part: part for part in ("pelvis", "spine", "chest", "neck", "head")}
     limbs |= {side: {limb: f"{side}-{name}" for limb, name in LIMBS} for side in ("left", "right")}
-    return {"materials": MATERIALS, "limbs": limbs, "joints": joints}
+    return {"materials": MATERIALS, "limbs": limbs, "shapes": shapes, "joints": joints}
+
+
+def turned(limits, sign):
+    """Of the right side, where turns about x and z are the other way round."""
+    return {axis: list(limit) if axis == "y" or sign == 1 else [-limit[1], -limit[0]] for axis, limit in limits.items()}
+
+
+def joint(name, parent, place, limits, shape, material, sign=1, unit=1.0):
+    made = {"name": name} | ({"parent": parent} if parent else {})
+    made |= {"place": scaled((place[0], sign * place[1], place[2]), unit), "limits": turned(limits, sign)}
+    if shape:
+        made["segment"] = {"shape": SHAPES.get(shape, shape), "sbb": [scaled(end, unit) for end in BOXES[shape]],
+                           "material": material}
+    return made
+
+
+def digits(side, sign, unit):
+    """Joints of the fingers and the thumb, which bend about their x axes."""
+    made = []
+    for name, parent, place in digit_joints():
+        finger, number = name.split("-")
+        limits = DIGITS["thumb" if finger == "thumb" else "finger"][int(number) - 1]
+        row = joint(f"{side}-{name}", f"{side}-{parent}", place, limits, None, None, sign, unit)
+        if finger == "thumb":
+            _, directions, hinge = digit("thumb")
+            row["x_axis"] = scaled((hinge[0], sign * hinge[1], hinge[2]), 1)
+            row["y_axis"] = scaled((sign * directions[0][0], directions[0][1], sign * directions[0][2]), 1)
+        made.append(row)
+    return made
+
+
+def face(side, sign, unit):
+    made = []
+    for name, (x, y, z), radii, aside, material in FACE:
+        c, s = math.cos(math.radians(aside)), sign * math.sin(math.radians(aside))
+        made.append({"name": f"{side}-{name}", "parent": "head", "place": scaled((x, sign * y, z), unit),
+                     **({"x_axis": scaled((c, s, 0), 1), "y_axis": scaled((-s, c, 0), 1)} if aside else {}),
+                     "limits": {},
+                     "segment": {"shape": "sphere", "sbb": [scaled([-r for r in radii], unit), scaled(radii, unit)],
+                                 "material": material}})
+    return made
+
+
+# ---- Surfaces that bend: shape, the joint that has it, material, level. Those of a pair are the left ones.
+
+SURFACES = [(human_cages.trousers, "trousers", "trousers", 1), (human_cages.shirt, "shirt", "shirt", 1),
+            (human_cages.head_and_neck, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 0),
+            (human_cages.arm, "left-arm", "skin", 1), (human_cages.shoe, "left-foot", "shoe", 0),
+            (human_cages.sole, "left-sole", "rubber", 0)]
+
+
+def dress(joints, unit):
+    """Gives joints segments with skins. Returns their shapes."""
+    shapes = {}
+    for make, carrier, material, level in SURFACES:
+        cage, name = make(), make.__name__.replace("_", "-")
+        if not carrier.startswith("left-"):
+            shapes[name] = clothe(joints, carrier, name, cage, material, unit, level)
+            continue
+        for side, one in ("left", cage), ("right", cage.mirrored()):
+            shape = f"{side}-{name}"
+            shapes[shape] = clothe(joints, carrier.replace("left", side), shape, one, material, unit, level)
+    lift_sleeves(joints)
+    return shapes
+
+
+def lift_sleeves(joints):
+    """The shirt's `bind`: it is made with lifted arms."""
+    places = rest_places(joints)
+    skin = next(each for each in joints if each["name"] == "shirt")["segment"]["skin"]
+    skin["bind"] = []
+    for bone in skin["joints"]:
+        angle = human_cages.LIFTED if bone == "left-sleeve" else -human_cages.LIFTED if bone == "right-sleeve" else 0
+        back = transposed(turn(angle, 0, 0))
+        place = applied(back, [a - b for a, b in zip(places["shirt"], places[bone])])
+        skin["bind"].append([round(v, 6) + 0.0 for row, at in zip(back, place) for v in (*row, at)])
 
 
 # ---- Matrices: three rows; turns in degrees as in a pose.

@@ -68,16 +68,27 @@ def shadowed(scene):
     return {**scene, "lights": [{**light, "shadow": True} for light in scene["lights"]]}
 
 
-def text_of(value, indent=0):
-    """JSON with what is short on one line."""
+def text_of(value, indent=0, pack=False):
+    """JSON with what is short on one line; the rows of a subdivision surface, several on a line."""
     line = json.dumps(value)
     if len(line) + indent <= 108 or not isinstance(value, (dict, list)):
         return line
     pad = " " * (indent + 2)
     if isinstance(value, dict):
-        items = [f"{pad}{json.dumps(k)}: {text_of(v, indent + 2)}" for k, v in value.items()]
+        items = [f"{pad}{json.dumps(k)}: {text_of(v, indent + 2, pack or k == 'subdivision')}" for k, v in value.items()]
         return "{\n" + ",\n".join(items) + "\n" + " " * indent + "}"
-    return "[\n" + ",\n".join(pad + text_of(v, indent + 2) for v in value) + "\n" + " " * indent + "]"
+    items = lines_of(value, 108 - indent) if pack else [text_of(v, indent + 2) for v in value]
+    return "[\n" + ",\n".join(pad + item for item in items) + "\n" + " " * indent + "]"
+
+
+def lines_of(rows, width):
+    lines = [json.dumps(rows[0])]
+    for row in map(json.dumps, rows[1:]):
+        if len(lines[-1]) + len(row) + 2 <= width:
+            lines[-1] += ", " + row
+        else:
+            lines.append(row)
+    return lines
 
 
 if __name__ == "__main__":

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 #include <unordered_map>
 #include <unordered_set>
 
@@ -136,6 +138,15 @@ modeler::ControlNet bent_net(const wire::PackedFilm& film, const wire::Shape& sh
   return net;
 }
 
+void add_prism(Lines& lines, const modeler::Box& box) {
+  const auto first = static_cast<std::uint32_t>(lines.points.size() / 3);
+  for (std::uint32_t corner = 0; corner < 8; ++corner) {
+    add_point(lines, glm::mix(box.min, box.max, glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2)));
+    for (const std::uint32_t axis : {1u, 2u, 4u})
+      if ((corner & axis) == 0) lines.ends.insert(lines.ends.end(), {first + corner, first + (corner | axis)});
+  }
+}
+
 // The middle of the box's face that is farthest from the joint, in the unit cube.
 glm::dvec3 far_end(const modeler::Box& sbb) {
   glm::dvec3 end(0.5);
@@ -188,10 +199,30 @@ Lines control_net(std::span<const wire::Patch> patches) {
 
 Lines cube_edges() {
   Lines lines;
-  for (std::uint32_t corner = 0; corner < 8; ++corner) {
-    add_point(lines, glm::dvec3(corner & 1, corner >> 1 & 1, corner >> 2));
-    for (const std::uint32_t axis : {1u, 2u, 4u})
-      if ((corner & axis) == 0) lines.ends.insert(lines.ends.end(), {corner, corner | axis});
+  add_prism(lines, {});
+  return lines;
+}
+
+Lines bone_prisms(const wire::PackedFilm& film, const wire::Shape& shape) {
+  std::map<std::uint32_t, modeler::Box> boxes;
+  const auto grow = [&](const Point& point, const modeler::VertexBones& follows) {
+    const auto heaviest = std::ranges::max_element(follows.weight) - std::begin(follows.weight);
+    const glm::dvec3 place(point[0], point[1], point[2]);
+    modeler::Box& box =
+        boxes.try_emplace(follows.bone[std::size_t(heaviest)], modeler::Box{place, place}).first->second;
+    box = {glm::min(box.min, place), glm::max(box.max, place)};
+  };
+  const modeler::ControlNet net = bent_net(film, shape);
+  for (std::size_t point = 0; point < net.points.size(); ++point) grow(net.points[point], net.bones[point]);
+  for (const wire::Meshlet& meshlet : film.meshlets().subspan(shape.first_meshlet, shape.meshlet_count)) {
+    const auto follows = followed_by(film, meshlet.skin, meshlet.vertex_count);
+    for (std::size_t vertex = 0; vertex < follows.size(); ++vertex)
+      grow(film.mesh_places()[meshlet.first_vertex + vertex], follows[vertex]);
+  }
+  Lines lines;
+  for (const auto& [bone, box] : boxes) {
+    add_prism(lines, box);
+    lines.bones.resize(lines.points.size() / 3, {{bone}, {1}});
   }
   return lines;
 }
@@ -218,7 +249,8 @@ std::vector<Lines> sticks_of(const modeler::Model& model) {
       add_stick(sticks[joint.parent], in_own(model.joints[joint.parent], joint.place));
   }
   for (std::size_t number = 0; number < model.joints.size(); ++number)
-    if (const auto& segment = model.joints[number].segment; segment && sticks[number].ends.empty())
+    if (const auto& segment = model.joints[number].segment;
+        segment && segment->bones.empty() && sticks[number].ends.empty())
       add_stick(sticks[number], far_end(segment->sbb));
   return sticks;
 }

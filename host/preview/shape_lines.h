@@ -19,11 +19,14 @@ Lines control_net(std::span<const wire::Patch> patches);
 // The 12 edges of the unit cube, which a T-matrix makes a segment's prism.
 Lines cube_edges();
 
+// Of a skin: the edges of a prism for each bone, round the points that follow it more than others. They go with it.
+Lines bone_prisms(const wire::PackedFilm& film, const wire::Shape& shape);
+
 // The middle of the unit cube's low face to that of the high one along `axis`.
 Lines cube_axis(int axis);
 
-// Of each joint: from it (a dot) to each of its children; from the last of a limb to the far end of its segment. In
-// the unit cube of the joint's segment, or in the joint's own frame where it has none.
+// Of each joint: from it (a dot) to each of its children; from the last of a limb to the far end of its rigid segment.
+// In the unit cube of the joint's segment, or in the joint's own frame where it has none.
 std::vector<Lines> sticks_of(const modeler::Model& model);
 
 }  // namespace mars::preview

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include "host/content/animator/pose/figure.h"
@@ -105,6 +106,7 @@ class Maker {
     joints_.resize(film_.segments().size());
     for (const wire::Shape& shape : film_.shapes()) add_lines(control_net(film_, shape));
     const std::uint32_t cube = add_lines(cube_edges());
+    std::map<std::uint32_t, std::uint32_t> prisms;  // of shapes with skins
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const wire::Segment& segment = film_.segments()[i];
       const auto bones = film_.bones_of(segment);
@@ -115,7 +117,14 @@ class Maker {
                       joints_[i],
                       {bones.begin(), bones.end()},
                       segment.blend});
-      parts(As::prisms).push_back({cube, segment.motion, segment.material, joints_[i]});
+      Part prism{cube, segment.motion, segment.material, joints_[i]};
+      if (!bones.empty()) {
+        const auto [known, is_new] = prisms.try_emplace(segment.shape);
+        if (is_new) known->second = add_lines(bone_prisms(film_, film_.shapes()[segment.shape]));
+        prism = {known->second, segment.motion, segment.material, joints_[i], {bones.begin(), bones.end()},
+                 segment.blend};
+      }
+      parts(As::prisms).push_back(prism);
     }
   }
 

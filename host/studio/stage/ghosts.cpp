@@ -190,7 +190,7 @@ void Ghosts::add_trail(const GhostFrames& frames, const Selection& selection, co
     way.push_back(state.place);
     if (selection.joint) {
       const modeler::Axes& joint = state.joints[*selection.joint];
-      way.back() = joint.turn * end_of(film.models[actor.model].joints[*selection.joint]) + joint.place;
+      way.back() = joint.turn * end_of(film.models[actor.model], *selection.joint) + joint.place;
     }
     const auto pixel = screen.pixel_of(way.back());
     if (!pixel) continue;

@@ -15,6 +15,30 @@ bool is_on(const modeler::Model& model, std::size_t joint, std::size_t above) {
   return joint == above;
 }
 
+glm::dvec3 end_of_segment(const modeler::Joint& joint) {
+  const modeler::Box& sbb = joint.segment->sbb;
+  glm::dvec3 farthest(0);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double at : {sbb.min[axis], sbb.max[axis]}) {
+      glm::dvec3 face = 0.5 * (sbb.min + sbb.max);
+      face[axis] = at;
+      face = modeler::segment_axes(joint) * face;
+      if (glm::length(face) > glm::length(farthest)) farthest = face;
+    }
+  return farthest;
+}
+
+glm::dvec3 middle_of_children(const modeler::Model& model, std::size_t parent) {
+  glm::dvec3 sum(0);
+  int count = 0;
+  for (const modeler::Joint& joint : model.joints)
+    if (joint.parent == parent && joint.place != glm::dvec3(0)) {
+      sum += joint.place;
+      ++count;
+    }
+  return count == 0 ? sum : sum / double(count);
+}
+
 }  // namespace
 
 std::optional<std::size_t> ankle_of(const modeler::Model& model, std::size_t joint) {
@@ -52,21 +76,13 @@ std::optional<glm::dvec3> reach_place(const Project& project, const Selection& s
   const animator::ActorState state = animator::state_at(project.film(), *selection.actor, project.frame());
   if (!selection.joint) return state.place;
   const modeler::Axes& frame = state.joints[*selection.joint];
-  return frame.turn * end_of(project.film().model_of(*selection.actor).joints[*selection.joint]) + frame.place;
+  return frame.turn * end_of(project.film().model_of(*selection.actor), *selection.joint) + frame.place;
 }
 
-glm::dvec3 end_of(const modeler::Joint& joint) {
-  if (!joint.segment || joint.parent == modeler::kNone) return glm::dvec3(0);
-  const modeler::Box& sbb = joint.segment->sbb;
-  glm::dvec3 farthest(0);
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double at : {sbb.min[axis], sbb.max[axis]}) {
-      glm::dvec3 face = 0.5 * (sbb.min + sbb.max);
-      face[axis] = at;
-      face = modeler::segment_axes(joint) * face;
-      if (glm::length(face) > glm::length(farthest)) farthest = face;
-    }
-  return farthest;
+glm::dvec3 end_of(const modeler::Model& model, std::size_t number) {
+  const modeler::Joint& joint = model.joints[number];
+  if (joint.parent == modeler::kNone) return glm::dvec3(0);
+  return joint.segment && joint.segment->bones.empty() ? end_of_segment(joint) : middle_of_children(model, number);
 }
 
 }  // namespace mars::studio

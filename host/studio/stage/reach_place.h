@@ -18,9 +18,9 @@ bool can_reach(const Project& project, const Selection& selection);
 // The place at which arrows pull it: the joint's end, or the actor's own place. None: it cannot reach.
 std::optional<glm::dvec3> reach_place(const Project& project, const Selection& selection);
 
-// The joint's end in its frame: the middle of the face of its segment that is farthest from it; itself where nothing
-// carries it or it has no segment.
-glm::dvec3 end_of(const modeler::Joint& joint);
+// The joint's end in its frame: the middle of the face of its rigid segment that is farthest from it; without one, the
+// middle of the joints that hang on it elsewhere than in it; itself where nothing carries it or nothing hangs on it.
+glm::dvec3 end_of(const modeler::Model& model, std::size_t joint);
 
 // The ankle that carries the joint or is it; none: no ankle does.
 std::optional<std::size_t> ankle_of(const modeler::Model& model, std::size_t joint);

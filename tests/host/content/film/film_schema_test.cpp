@@ -130,7 +130,7 @@ TEST(Examples, FiguresOfOtherProportionsShareTheirShapes) {
   const CompiledFilm one = compile(animator::read_film(document.root(), folder));
   EXPECT_EQ(five.view().patches().size(), one.view().patches().size());
   EXPECT_EQ(five.view().shapes().size(), one.view().shapes().size());
-  EXPECT_EQ(five.view().segments().size(), one.view().segments().size() + 4 * 37);
+  EXPECT_EQ(five.view().segments().size(), one.view().segments().size() + 4 * 21);
 }
 
 // The first block of JSON on a page of docs/ that begins with `first`.

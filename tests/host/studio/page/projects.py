@@ -1,10 +1,10 @@
-"""What a studio tells of a model and of a film, made from examples/models/human.json."""
+"""What a studio tells of a model and of a film, made from a man each of whose joints has a rigid segment."""
 
 import json
 import pathlib
 
 SOURCES = pathlib.Path(__file__).resolve().parents[4]
-MODELS = SOURCES / "examples/models"
+MAN = SOURCES / "tests/host/studio/page/jointed_man.json"
 AXES = "xyz"
 FREE = {axis: [-180, 180] for axis in AXES}
 SHAPES = [
@@ -19,7 +19,7 @@ SHAPES = [
 
 
 def joints(keyed=()):
-    model = json.loads((MODELS / "human.json").read_text())
+    model = json.loads(MAN.read_text())
     names = {joint: limb for limb, joint in model["limbs"].items() if isinstance(joint, str)}
     for side in ("left", "right"):
         names |= {joint: f"{side}.{limb}" for limb, joint in model["limbs"][side].items()}
@@ -43,7 +43,7 @@ def described(joint, limbs, keyed):
 
 
 def materials():
-    return [{"name": name, **material} for name, material in json.loads((MODELS / "human.json").read_text())["materials"].items()]
+    return [{"name": name, **material} for name, material in json.loads(MAN.read_text())["materials"].items()]
 
 
 def key(schema):

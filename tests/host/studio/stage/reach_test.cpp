@@ -43,7 +43,7 @@ struct Scene : OnStage {
   animator::ActorState state() const { return animator::state_at(project.film(), 0, project.frame()); }
   glm::dvec3 end(const std::string& name) const {
     const modeler::Axes frame = state().joints[joint(name)];
-    return frame.turn * end_of(model().joints[joint(name)]) + frame.place;
+    return frame.turn * end_of(model(), joint(name)) + frame.place;
   }
   // What the mouse takes there.
   Held under(const glm::dvec2& pixel) const {

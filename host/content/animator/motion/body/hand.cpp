@@ -16,7 +16,7 @@ constexpr double kThick = 0.45;  // of how far its box is out on the inner side
 // How far a joint's own segment reaches from it, as drawn, along a direction; of a skin what moves with the joint.
 double extent(const modeler::Model& model, std::size_t number, const glm::dvec3& direction) {
   const modeler::Joint& joint = model.joints[number];
-  if (!joint.segment)
+  if (!joint.segment || !joint.segment->bones.empty())
     return reach_of_skin(model, number, direction,
                          [&](std::size_t each) { return modeler::is_at_or_below(model.joints, each, number); });
   double most = 0;

@@ -32,7 +32,7 @@ glm::dmat3 facing(const Stance& stance) { return canonical_turn(0, 0, stance.hea
 // alone.
 double extent(const Body& body, std::size_t number, const glm::dvec3& direction) {
   const modeler::Joint& joint = body.model->joints[number];
-  if (!joint.segment)
+  if (!joint.segment || !joint.segment->bones.empty())
     return reach_of_skin(*body.model, number, body.axes * direction, [&](std::size_t each) { return each == number; });
   double most = 0;
   for (int corner = 0; corner < 8; ++corner) {
