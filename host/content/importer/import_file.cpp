@@ -20,7 +20,7 @@
 #include "host/content/importer/import_motion.h"
 #include "host/content/importer/import_report.h"
 #include "host/content/importer/orientation.h"
-#include "host/content/importer/patches/import_patches.h"
+#include "host/content/importer/import_patches.h"
 
 namespace mars::importer {
 namespace {

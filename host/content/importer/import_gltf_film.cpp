@@ -14,7 +14,7 @@
 #include "host/content/importer/joint_motion.h"
 #include "host/content/importer/motions/film_text.h"
 #include "host/content/importer/motions/motion_frames.h"
-#include "host/content/importer/scenes/scene_motion.h"
+#include "host/content/importer/scene_motion.h"
 
 namespace mars::importer {
 namespace {

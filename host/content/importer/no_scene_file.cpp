@@ -1,6 +1,6 @@
 #include "hal/failure/failure.h"
 #include "host/content/importer/scene_file.h"
-#include "host/content/importer/scenes/scene_motion.h"
+#include "host/content/importer/scene_motion.h"
 
 namespace mars::importer {
 

@@ -2,7 +2,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/importer/assimp_matrix.h"
-#include "host/content/importer/scenes/scene_nodes.h"
+#include "host/content/importer/scene_nodes.h"
 
 namespace mars::importer {
 namespace {

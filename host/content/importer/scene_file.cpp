@@ -25,8 +25,8 @@
 #include "host/content/importer/node_tree.h"
 #include "host/content/importer/motions/spindles.h"
 #include "host/content/importer/promised.h"
-#include "host/content/importer/scenes/loaded_scene.h"
-#include "host/content/importer/scenes/scene_nodes.h"
+#include "host/content/importer/loaded_scene.h"
+#include "host/content/importer/scene_nodes.h"
 #include "host/content/importer/skin.h"
 #include "host/content/importer/unread_parts.h"
 

@@ -1,7 +1,7 @@
 #include "host/content/importer/scene_sources.h"
 
 #include "hal/failure/failure.h"
-#include "host/content/importer/companion.h"
+#include "host/content/importer/sources/companion.h"
 
 namespace mars::importer {
 

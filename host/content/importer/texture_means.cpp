@@ -8,7 +8,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/apart.h"
-#include "host/content/importer/companion.h"
+#include "host/content/importer/sources/companion.h"
 #include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/content/document/file.h"
-#include "host/content/importer/companion.h"
+#include "host/content/importer/sources/companion.h"
 
 namespace mars::importer {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
-#include "host/content/importer/companion.h"
+#include "host/content/importer/sources/companion.h"
 
 namespace mars::importer {
 namespace {

@@ -7,7 +7,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
-#include "host/content/importer/companion.h"
+#include "host/content/importer/sources/companion.h"
 #include "host/content/importer/patches/patch_scene.h"
 
 namespace mars::importer {

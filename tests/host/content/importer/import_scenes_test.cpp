@@ -13,7 +13,7 @@
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/importer/import_folder.h"
-#include "tests/host/content/importer/scenes/scene_texts.h"
+#include "tests/host/content/importer/scene_texts.h"
 
 namespace mars::importer {
 namespace {

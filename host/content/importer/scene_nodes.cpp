@@ -1,4 +1,4 @@
-#include "host/content/importer/scenes/scene_nodes.h"
+#include "host/content/importer/scene_nodes.h"
 
 #include <glm/matrix.hpp>
 #include <optional>

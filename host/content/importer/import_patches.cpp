@@ -1,4 +1,4 @@
-#include "host/content/importer/patches/import_patches.h"
+#include "host/content/importer/import_patches.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "host/content/importer/scenes/loaded_scene.h"
+#include "host/content/importer/loaded_scene.h"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>

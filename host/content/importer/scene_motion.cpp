@@ -1,4 +1,4 @@
-#include "host/content/importer/scenes/scene_motion.h"
+#include "host/content/importer/scene_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/importer/assimp_matrix.h"
-#include "host/content/importer/scenes/loaded_scene.h"
-#include "host/content/importer/scenes/scene_nodes.h"
+#include "host/content/importer/loaded_scene.h"
+#include "host/content/importer/scene_nodes.h"
 #include "host/content/modeler/joint.h"
 
 namespace mars::importer {

@@ -1,4 +1,4 @@
-#include "host/content/importer/companion.h"
+#include "host/content/importer/sources/companion.h"
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
