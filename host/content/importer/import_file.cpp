@@ -60,7 +60,7 @@ std::vector<std::string> run(const ImportOptions& options, FileKind kind, const 
                           : film             ? import_gltf_film(options, kind, stance)
                                              : import_mesh(options, kind, stance);
   std::vector<std::string> parts{text_of(imported.report, options.to.string()) + '\0'};
-  for (TextPart& part : imported.text) parts.push_back(std::move(part.text));
+  for (document::TextPart& part : imported.text) parts.push_back(std::move(part.text));
   return parts;
 }
 

@@ -65,7 +65,7 @@ MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& st
   return file;
 }
 
-LongText model_text_of(MeshFile& file) {
+document::LongText model_text_of(MeshFile& file) {
   std::vector<WrittenJoint> joints;
   for (MeshJoint& joint : file.joints) {
     joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}, joint.limits});

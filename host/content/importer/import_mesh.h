@@ -27,7 +27,7 @@ MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& st
 
 // As a model file.
 // Leaves the file without its meshes.
-LongText model_text_of(MeshFile& file);
+document::LongText model_text_of(MeshFile& file);
 
 // A report but for what the model or film is.
 ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance);

@@ -73,7 +73,7 @@ std::vector<OneColor> by_color(const PatchScene& scene, const modeler::Box& boun
   return colors;
 }
 
-LongText model_of(const std::string& joint, const std::vector<OneColor>& colors, const modeler::Box& bounds) {
+document::LongText model_of(const std::string& joint, const std::vector<OneColor>& colors, const modeler::Box& bounds) {
   std::vector<WrittenJoint> joints;
   std::vector<ImportedMaterial> materials;
   JointNames names;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/content/importer/long_text.h"
+#include "host/content/document/long_text.h"
 
 namespace mars::importer {
 
@@ -20,7 +20,7 @@ struct ImportReport {
 
 struct ImportedText {
   ImportReport report;
-  LongText text;  // of the model or the film
+  document::LongText text;  // of the model or the film
 };
 
 // In lines, the first beginning with the file that was written.

@@ -116,14 +116,14 @@ class ModelText {
   }
 
   // Once.
-  LongText whole(const std::vector<ImportedMaterial>& materials, const std::vector<NamedLimb>& limbs) {
+  document::LongText whole(const std::vector<ImportedMaterial>& materials, const std::vector<NamedLimb>& limbs) {
     std::string text = "{\n";
     for (std::size_t i = 0; i < materials.size(); ++i)
       text += (i == 0 ? "  \"materials\": {\n    " : ",\n    ") + json_text(material_name(i)) + ": " +
               material_text(materials[i]);
     if (!materials.empty()) text += "\n  },\n";
     if (!limbs.empty()) text += "  \"limbs\": " + limbs_text(limbs) + ",\n";
-    LongText parts{{text + "  \"joints\": [" + joints_ + "\n  ],\n  \"shapes\": {"}};
+    document::LongText parts{{text + "  \"joints\": [" + joints_ + "\n  ],\n  \"shapes\": {"}};
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       parts.push_back({(i == 0 ? "\n    " : ",\n    ") + json_text(shape_name(i)) + ": "});
       parts.push_back(std::move(shapes_[i]));
@@ -179,14 +179,14 @@ class ModelText {
 
   static std::string shape_name(std::size_t number) { return numbered("imported", number); }
 
-  std::size_t number_of(TextPart shape) {
+  std::size_t number_of(document::TextPart shape) {
     if (const auto known = numbers_.find(shape.text); known != numbers_.end()) return known->second;
     shapes_.push_back(std::move(shape));
     return numbers_[shapes_.back().text] = shapes_.size() - 1;
   }
 
   std::string joints_;
-  std::deque<TextPart> shapes_;
+  std::deque<document::TextPart> shapes_;
   std::map<std::string_view, std::size_t> numbers_;  // by their texts
 };
 
@@ -194,7 +194,7 @@ class ModelText {
 
 std::string material_name(std::size_t number) { return numbered("color", number); }
 
-TextPart shape_text(const std::vector<wire::Patch>& patches) {
+document::TextPart shape_text(const std::vector<wire::Patch>& patches) {
   std::string text;
   append_rows(text, patches.size(), [&](std::size_t number) {
     text += '[';
@@ -207,7 +207,7 @@ TextPart shape_text(const std::vector<wire::Patch>& patches) {
   return {std::move(text)};
 }
 
-TextPart shape_text(const modeler::Mesh& mesh) {
+document::TextPart shape_text(const modeler::Mesh& mesh) {
   std::string text = "{\"mesh\": {\n      \"vertices\": ";
   append_places(text, mesh.vertices);
   text += ",\n      \"faces\": ";
@@ -225,8 +225,8 @@ TextPart shape_text(const modeler::Mesh& mesh) {
   return {std::move(text), brief_text(mesh)};
 }
 
-LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
-                    const std::vector<NamedLimb>& limbs) {
+document::LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
+                              const std::vector<NamedLimb>& limbs) {
   ModelText text;
   for (WrittenJoint& joint : joints) text.add(std::move(joint));
   return text.whole(materials, limbs);

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/content/importer/imported_mesh.h"
-#include "host/content/importer/long_text.h"
+#include "host/content/document/long_text.h"
 #include "node/wire/film.h"
 
 namespace mars::importer {
@@ -17,7 +17,8 @@ struct WrittenSkin {
 };
 
 struct WrittenSegment {
-  TextPart shape;  // JSON; segments of the same text share a shape, such as a wheel that a file has four times
+  document::TextPart
+      shape;  // JSON; segments of the same text share a shape, such as a wheel that a file has four times
   modeler::Box sbb;
   std::optional<std::size_t> material;  // of the model's materials
   std::optional<WrittenSkin> skin{};
@@ -36,10 +37,10 @@ struct WrittenJoint {
 std::string material_name(std::size_t number);
 
 // A shape as JSON. In brief a mesh is a triangle that follows as many bones.
-TextPart shape_text(const std::vector<wire::Patch>& patches);
-TextPart shape_text(const modeler::Mesh& mesh);
+document::TextPart shape_text(const std::vector<wire::Patch>& patches);
+document::TextPart shape_text(const modeler::Mesh& mesh);
 
-LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
-                    const std::vector<NamedLimb>& limbs = {});
+document::LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
+                              const std::vector<NamedLimb>& limbs = {});
 
 }  // namespace mars::importer

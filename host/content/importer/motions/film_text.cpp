@@ -166,7 +166,7 @@ Json camera_text(const glm::dvec3& least, const glm::dvec3& greatest) {
   return json;
 }
 
-LongText film_text(FilmText film) {
+document::LongText film_text(FilmText film) {
   const auto line = [](const char* key, const Json& value) {
     std::string text = document::laid_out(value);
     text.pop_back();  // its end of line
@@ -177,15 +177,15 @@ LongText film_text(FilmText film) {
   text += line("background", animator::new_film()["background"]) + line("camera", film.camera);
   if (!film.lights.is_null()) text += line("lights", film.lights);
   text += "  \"models\": {" + Json(film.model_name).dump() + ": ";
-  LongText parts = std::move(film.model);
+  document::LongText parts = std::move(film.model);
   parts.insert(parts.begin(), {text});
   while (parts.back().text.ends_with('\n')) parts.back().text.pop_back();
   parts.push_back({"},\n  \"actors\": " + document::laid_out(Json::array({film.actor})) + "}\n"});
   return parts;
 }
 
-void check_film_text(const LongText& text, const std::filesystem::path& path) {
-  const document::Document film(brief_of(text), path.string());
+void check_film_text(const document::LongText& text, const std::filesystem::path& path) {
+  const document::Document film(document::brief_of(text), path.string());
   animator::read_film(film.root(), path.parent_path());
 }
 

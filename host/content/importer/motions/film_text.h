@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "host/content/document/json_file.h"
-#include "host/content/importer/long_text.h"
+#include "host/content/document/long_text.h"
 #include "host/content/importer/motions/skeleton.h"
 
 namespace mars::importer {
@@ -60,16 +60,16 @@ struct FilmText {
   std::size_t frames = 1;
   double rate = 24;
   std::string model_name;
-  LongText model;  // as model files are
+  document::LongText model;  // as model files are
   document::Json camera, actor;
   document::Json lights{};                             // null: none of its own
   std::optional<std::array<std::uint32_t, 2>> size{};  // of the picture; none: as is usual
 };
 
-LongText film_text(FilmText film);
+document::LongText film_text(FilmText film);
 
 // Throws where MARS would refuse the film, in which its meshes stand in brief, which is a bug of ours: better found
 // here than by who renders it.
-void check_film_text(const LongText& text, const std::filesystem::path& path);
+void check_film_text(const document::LongText& text, const std::filesystem::path& path);
 
 }  // namespace mars::importer

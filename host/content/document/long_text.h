@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace mars::importer {
+namespace mars::document {
 
 struct TextPart {
   std::string text;
@@ -19,4 +19,4 @@ inline std::string brief_of(const LongText& text) {
   return all;
 }
 
-}  // namespace mars::importer
+}  // namespace mars::document
