@@ -92,6 +92,20 @@ void take_in_pairs(const wire::PackedFilm& film, const wire::Skin& skin, std::sp
     }
 }
 
+BonePairs found_pairs(const wire::PackedFilm& film, const wire::Meshlet& meshlet) {
+  BonePairs pairs{};
+  const auto weights = film.weights_of(meshlet.skin, meshlet.vertex_count);
+  for (std::uint32_t vertex = 0; vertex < meshlet.vertex_count; ++vertex) {
+    std::uint16_t followed = 0;
+    for (std::uint32_t bone = meshlet.skin.bone_count; bone-- > 0;) {
+      if (!(weights[bone * meshlet.vertex_count + vertex] > 0)) continue;
+      pairs[bone] |= followed;
+      followed |= static_cast<std::uint16_t>(1u << bone);
+    }
+  }
+  return pairs;
+}
+
 }  // namespace
 
 shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSettings& settings) {
@@ -115,6 +129,10 @@ shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSett
           .parallel = parallel,
           .squeeze = 1 / settings.pixel_aspect,
           .origin = {settings.window.left, settings.window.top}};
+}
+
+const BonePairs* pairs_of(const wire::PackedFilm& film, const wire::Meshlet& meshlet, std::span<const BonePairs> all) {
+  return all.empty() ? nullptr : &all[static_cast<std::size_t>(&meshlet - film.meshlets().data())];
 }
 
 ShapeBoxes::ShapeBoxes(const wire::PackedFilm& film) {
@@ -160,6 +178,9 @@ Scene::Scene(const wire::PackedFilm& film)
     next += static_cast<std::uint32_t>(film.shape(segment.shape).size());
     most_bones_ = std::max<std::size_t>(most_bones_, segment.bone_count);
   }
+  const auto is_dual = [](const wire::Segment& s) { return s.blend == wire::Blend::dual_quaternions; };
+  if (std::ranges::any_of(film.segments(), is_dual))
+    for (const wire::Meshlet& meshlet : film.meshlets()) bone_pairs_.push_back(found_pairs(film, meshlet));
   moves_.resize(film.segments().size());
   moved_at_.resize(film.segments().size() + film.bones().size());
   lights_.resize(film.light_tracks().size());

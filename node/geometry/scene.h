@@ -55,6 +55,9 @@ class ShapeBoxes {
   std::vector<std::size_t> first_bone_, first_pair_;  // of each shape, and the end
 };
 
+// Which of a meshlet's bones share a vertex: bit b of row a, a < b, by their places in the meshlet's list.
+using BonePairs = std::array<std::uint16_t, wire::kMeshletBones>;
+
 class Scene {
  public:
   explicit Scene(const wire::PackedFilm& film);
@@ -90,6 +93,8 @@ class Scene {
   // Of one of a skin's bones; a segment has most_bones() at most.
   shape::EyeMatrix bone_matrix(std::size_t segment, std::uint32_t bone) const;
   std::size_t most_bones() const { return most_bones_; }
+  // By meshlet, where some segment blends by dual quaternions; else none.
+  std::span<const BonePairs> bone_pairs() const { return bone_pairs_; }
   std::uint32_t material(std::size_t segment) const;
 
  private:
@@ -103,10 +108,14 @@ class Scene {
   std::uint32_t frame_ = 0;
   shape::Projection projection_;
   std::size_t most_bones_ = 0;
+  std::vector<BonePairs> bone_pairs_;
   std::vector<std::size_t> light_order_;  // numbers of tracks
   std::uint32_t casting_count_;
   std::vector<EyeLight> lights_;
 };
+
+// Of one of the film's meshlets among Scene::bone_pairs(); nullptr where there are none.
+const BonePairs* pairs_of(const wire::PackedFilm& film, const wire::Meshlet& meshlet, std::span<const BonePairs> all);
 
 // How `camera` shows the world on a film's pictures.
 shape::Projection projection_of(const wire::Camera& camera, const wire::FilmSettings& settings);

@@ -100,6 +100,7 @@ void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
   bones_.begin(of.blend, of.bone_count);
   bounds_.begin(of.blend, scene.most_bones());
   net_.start(scene.film());
+  bone_pairs_ = scene.bone_pairs();
   float largest = 0;
   for (std::uint32_t bone = 0; bone < of.bone_count; ++bone) {
     bones_.put(bone, scene.bone_matrix(segment, bone));
@@ -124,7 +125,8 @@ shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t nu
 
 BoxCorners SegmentPlace::corners(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const {
   if (!has_skin()) return corners_of(matrix_, meshlet.low, meshlet.high);
-  return corners_of(bounds_.round(film.bones_of(meshlet.skin), meshlet.low, meshlet.high));
+  return corners_of(
+      bounds_.round(film.bones_of(meshlet.skin), meshlet.low, meshlet.high, pairs_of(film, meshlet, bone_pairs_)));
 }
 
 BoxCorners SegmentPlace::corners(const ShapeBoxes& boxes) const {

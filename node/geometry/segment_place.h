@@ -77,6 +77,7 @@ class SegmentPlace {
   shape::EyeMatrix matrix_{};
   shape::EyeMap map_{};
   EyeBones bones_;
+  std::span<const BonePairs> bone_pairs_;
   SkinBounds bounds_;
   mutable NetPoints<float, 3> net_;  // patches ask for the same points
   float scale_ = 1;

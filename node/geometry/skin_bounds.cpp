@@ -135,7 +135,7 @@ double SkinBounds::beyond(std::size_t together, const Visit& visit_pairs) const 
 }
 
 SkinBounds::Box SkinBounds::round(std::span<const std::uint32_t> bones, const std::array<float, 3>& low,
-                                  const std::array<float, 3>& high) const {
+                                  const std::array<float, 3>& high, const BonePairs* pairs) const {
   const Box box = stretched(box_of(low, high));
   MovedBox moved;
   for (const std::uint32_t bone : bones) moved.add(maps_[bone], box);
@@ -143,7 +143,8 @@ SkinBounds::Box SkinBounds::round(std::span<const std::uint32_t> bones, const st
   for (const std::uint32_t bone : bones) sides_[bone] = 0;
   const double by = beyond(std::min<std::size_t>(bones.size(), wire::kMostPointBones), [&](const auto& visit) {
     for (std::size_t a = 0; a < bones.size(); ++a)
-      for (std::size_t b = a + 1; b < bones.size(); ++b) visit(bones[a], bones[b], box);
+      for (std::size_t b = a + 1; b < bones.size(); ++b)
+        if (pairs == nullptr || ((*pairs)[a] >> b & 1) != 0) visit(bones[a], bones[b], box);
   });
   return moved.wider(by, kBlendRounding);
 }
@@ -165,7 +166,7 @@ bool SkinBounds::in_doubt(std::span<const std::uint32_t> bones, std::span<const 
 SkinBounds::Box SkinBounds::round(const wire::PackedFilm& film, const wire::NetPoint& point) const {
   const auto bones = film.bones_of(point.skin);
   const auto weights = film.weights_of(point.skin, 1);
-  if (in_doubt(bones, weights)) return round(bones, point.place, point.place);
+  if (in_doubt(bones, weights)) return round(bones, point.place, point.place, nullptr);
   wire::Matrix sum{};
   shape::DualBlend<double> dual;
   for (std::size_t i = 0; i < bones.size(); ++i) {

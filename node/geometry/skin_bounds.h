@@ -35,9 +35,10 @@ class SkinBounds {
   void begin(wire::Blend blend, std::size_t most);
   void add(const wire::Matrix& bone);
 
-  // Round points between `low` and `high` that follow some of the bones with these numbers.
-  Box round(std::span<const std::uint32_t> bones, const std::array<float, 3>& low,
-            const std::array<float, 3>& high) const;
+  // Round points between `low` and `high` that follow some of the bones with these numbers. `pairs`: which of them
+  // share points, by their places in the list; nullptr: all may.
+  Box round(std::span<const std::uint32_t> bones, const std::array<float, 3>& low, const std::array<float, 3>& high,
+            const BonePairs* pairs = nullptr) const;
   // Round all of a shape.
   Box round(const ShapeBoxes& boxes, std::uint32_t shape) const;
 

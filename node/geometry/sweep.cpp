@@ -250,7 +250,8 @@ class Pieces {
     scratch_.net.start(film_);
     for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
-      const SkinBounds::Box box = bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high);
+      const SkinBounds::Box box = bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high,
+                                              pairs_of(film_, meshlet, scene_.bone_pairs()));
       visit(corners_of(box.low, box.high));
     }
   }

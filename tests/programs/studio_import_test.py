@@ -110,7 +110,7 @@ class ImportTest(StudioInBrowser):
         self.assertIn("broken.obj", text)
         self.assertNotIn("mars-import", text)
         self.assertTrue(self.browser.run("return document.querySelector('#import .remedy').textContent"))
-        self.browser.run(DROP, [["figure.fbx", "Kaydara"]])
+        self.browser.run(DROP, [["figure.blend", "BLENDER"]])
         self.until("why", "document.querySelector('#import').innerText.includes('Blender')")
         self.assertEqual(self.file.read_text(), before)
 

@@ -18,13 +18,15 @@ struct Known {
   FileKind kind;
 };
 
-constexpr Known kKnown[] = {{".obj", FileKind::obj},   {".stl", FileKind::stl}, {".ply", FileKind::ply},
-                            {".gltf", FileKind::gltf}, {".glb", FileKind::glb}, {".bpt", FileKind::patches},
-                            {".bvh", FileKind::bvh},   {".asf", FileKind::asf}, {".amc", FileKind::amc}};
+constexpr Known kKnown[] = {{".obj", FileKind::obj},   {".stl", FileKind::stl},     {".ply", FileKind::ply},
+                            {".gltf", FileKind::gltf}, {".glb", FileKind::glb},     {".vrm", FileKind::glb},
+                            {".fbx", FileKind::fbx},   {".dae", FileKind::collada}, {".bpt", FileKind::patches},
+                            {".pov", FileKind::pov},   {".rib", FileKind::rib},     {".bvh", FileKind::bvh},
+                            {".asf", FileKind::asf},   {".amc", FileKind::amc}};
 
 constexpr const char* kReadable =
-    "mesh files end in .obj, .stl, .ply, .gltf or .glb, patch files in .bpt, motions in .bvh or .amc, skeletons in "
-    ".asf";
+    "mesh files end in .obj, .stl, .ply, .gltf, .glb, .vrm, .fbx or .dae, patch files in .bpt, .pov or .rib, "
+    "motions in .bvh or .amc, skeletons in .asf";
 
 struct Foreign {
   std::string_view ending;
@@ -34,15 +36,9 @@ struct Foreign {
 
 constexpr const char* kByBlender = "open it in Blender and export glTF";
 constexpr Foreign kForeign[] = {
-    {".fbx", "an FBX scene", kByBlender},
-    {".dae", "a COLLADA scene", kByBlender},
-    {".blend", "a Blender scene", kByBlender},
-    {".3ds", "a 3D Studio scene", kByBlender},
-    {".usd", "a USD scene", kByBlender},
-    {".usda", "a USD scene", kByBlender},
-    {".usdc", "a USD scene", kByBlender},
-    {".usdz", "a USD scene", kByBlender},
-    {".rib", "a RenderMan scene", "export glTF or OBJ from the program that made it"},
+    {".blend", "a Blender scene", kByBlender}, {".3ds", "a 3D Studio scene", kByBlender},
+    {".usd", "a USD scene", kByBlender},       {".usda", "a USD scene", kByBlender},
+    {".usdc", "a USD scene", kByBlender},      {".usdz", "a USD scene", kByBlender},
 };
 
 struct Beginning {

@@ -7,9 +7,19 @@
 
 namespace mars::importer {
 
-enum class FileKind { obj, stl, ply, gltf, glb, patches, bvh, asf, amc };
+enum class FileKind { obj, stl, ply, gltf, glb, fbx, collada, patches, pov, rib, bvh, asf, amc };
 
 constexpr bool is_gltf(FileKind kind) { return kind == FileKind::gltf || kind == FileKind::glb; }
+
+// Scenes of nodes, with a unit, bones, animations, cameras and lights.
+constexpr bool has_nodes(FileKind kind) { return is_gltf(kind) || kind == FileKind::fbx || kind == FileKind::collada; }
+
+inline constexpr const char* kMeshKinds = "OBJ, STL, PLY, glTF, GLB, FBX, COLLADA";
+
+// Bezier patches alone.
+constexpr bool is_patches(FileKind kind) {
+  return kind == FileKind::patches || kind == FileKind::pov || kind == FileKind::rib;
+}
 
 // Skeletons and their motions, without shapes.
 constexpr bool is_skeleton(FileKind kind) {

@@ -41,7 +41,7 @@ void refuse_skin(const std::filesystem::path& path, const Tree& gltf, const Tree
 }  // namespace
 
 GltfSkins gltf_skins(const std::filesystem::path& path, const Tree& gltf) {
-  GltfSkins all{{}, root_nodes(gltf), {}};
+  GltfSkins all{{}, root_nodes(gltf), {}, glm::dmat4(1), false};
   std::map<std::size_t, Tree> skin_of_mesh;
   const Tree &nodes = at(gltf, "nodes"), &skins = at(gltf, "skins");
   for (const Tree& skin : skins) all.skins.push_back(places_in(nodes, at(skin, "joints")));

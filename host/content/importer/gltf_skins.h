@@ -1,9 +1,11 @@
 // What Assimp 5.2 does not give of a glTF file's nodes: which node a bone is (Assimp has names alone, and several nodes
-// may have one), and which of the nodes that share a mesh have a skin.
+// may have one), and which of the nodes that share a mesh have a skin. FBX and COLLADA have the same
+// (scenes/scene_nodes.h).
 #pragma once
 
 #include <cstddef>
 #include <filesystem>
+#include <glm/mat4x4.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +24,8 @@ struct GltfSkins {
   std::vector<GltfNode> nodes;                  // all of the file's
   std::vector<std::size_t> roots;               // of the scene
   std::vector<std::vector<std::size_t>> skins;  // each the numbers of its joints' nodes, in the order of Assimp's bones
+  glm::dmat4 above{1};                          // what the roots stand in
+  bool is_by_mesh = false;                      // of FBX and COLLADA: a skin has the number of its mesh
 };
 
 // Refuses skins that Assimp reads wrongly.

@@ -19,33 +19,22 @@
 #include "host/content/importer/import_mesh.h"
 #include "host/content/importer/import_motion.h"
 #include "host/content/importer/import_report.h"
-#include "host/content/importer/model_text.h"
 #include "host/content/importer/orientation.h"
-#include "host/content/modeler/patch_file.h"
+#include "host/content/importer/patches/import_patches.h"
 
 namespace mars::importer {
 namespace {
 
-// y up is glTF's rule, and the custom of OBJ and of motions.
-std::string usual_up(FileKind kind) { return kind == FileKind::obj || is_gltf(kind) || is_skeleton(kind) ? "y" : "z"; }
+// y up is glTF's rule, into which FBX and COLLADA are turned, and the custom of OBJ, POV-Ray, RIB and motions.
+std::string usual_up(FileKind kind) {
+  return kind == FileKind::obj || kind == FileKind::pov || kind == FileKind::rib || has_nodes(kind) || is_skeleton(kind)
+             ? "y"
+             : "z";
+}
 
 // Captured figures look along z.
 std::string usual_front(FileKind kind, const std::string& up) {
   return is_skeleton(kind) && up.back() != 'z' ? "z" : "";
-}
-
-ImportedText import_patches(const ImportOptions& options, FileKind kind, const Stance& stance) {
-  if (options.crease)
-    throw Failure("has patches, which need no crease", options.from.string(), "leave out --crease: it is for meshes");
-  const auto read = [&](double factor) { return modeler::read_patch_file(options.from, stance.upright * factor); };
-  const double factor = options.size.factor(options.size.height ? read(1).extent.z : 0, options.from.string());
-  const modeler::PatchFile file = read(factor);
-  return {{"model of one joint '" + options.joint + "'",
-           box_text(file.extent, factor, kind, stance),
-           {document::counted(file.patches.size(), "patch", "patches")},
-           {},
-           {}},
-          model_text({{options.joint, "", {}, false, WrittenSegment{shape_text(file.patches), file.bounds, {}}}}, {})};
 }
 
 // A library does not come back from every damaged file.
@@ -66,10 +55,10 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
 // The report, a zero, the model or film.
 std::string run(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const bool film = options.as == ImportAs::film;
-  const ImportedText imported = is_skeleton(kind)           ? import_motion(options, kind, stance.up, stance.upright)
-                                : kind == FileKind::patches ? import_patches(options, kind, stance)
-                                : film                      ? import_gltf_film(options, kind, stance)
-                                                            : import_mesh(options, kind, stance);
+  const ImportedText imported = is_skeleton(kind)  ? import_motion(options, kind, stance.up, stance.upright)
+                                : is_patches(kind) ? import_patches(options, kind, stance)
+                                : film             ? import_gltf_film(options, kind, stance)
+                                                   : import_mesh(options, kind, stance);
   return text_of(imported.report, options.to.string()) + '\0' + imported.text;
 }
 
@@ -116,15 +105,15 @@ void check_options(const ImportOptions& options, FileKind kind) {
     if (kind_of_name(more) != FileKind::amc)
       throw Failure("is no AMC file, and only such can follow another", more.string(), "import it by itself");
   const bool film = options.as == ImportAs::film;
-  if (film && !is_skeleton(kind) && !is_gltf(kind))
+  if (film && !is_skeleton(kind) && !has_nodes(kind))
     refuse("--as film", "import it as a model, and show that in a film: mars film FILM add");
   if (film && kind == FileKind::asf) refuse("--as film", "import its motion, an .amc file");
   if (options.file_rate && !is_skeleton(kind)) refuse("--file-rate", "leave it out: it is for captured motions");
-  if (options.rate && !is_skeleton(kind) && !(film && is_gltf(kind)))
-    refuse("--rate", is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for motions");
-  if ((!options.animation.empty() || options.motion) && !(film && is_gltf(kind)))
+  if (options.rate && !is_skeleton(kind) && !(film && has_nodes(kind)))
+    refuse("--rate", has_nodes(kind) ? "add --as film, or leave it out" : "leave it out: it is for motions");
+  if ((!options.animation.empty() || options.motion) && !(film && has_nodes(kind)))
     refuse("--animation or --motion",
-           is_gltf(kind) ? "add --as film, or leave it out" : "leave it out: it is for glTF");
+           has_nodes(kind) ? "add --as film, or leave it out" : "leave it out: it is for scenes");
 }
 
 }  // namespace

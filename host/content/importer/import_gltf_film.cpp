@@ -14,6 +14,7 @@
 #include "host/content/importer/joint_motion.h"
 #include "host/content/importer/motions/film_text.h"
 #include "host/content/importer/motions/motion_frames.h"
+#include "host/content/importer/scenes/scene_motion.h"
 
 namespace mars::importer {
 namespace {
@@ -80,7 +81,8 @@ class GltfFilm {
  public:
   GltfFilm(const ImportOptions& options, FileKind kind, const Stance& stance)
       : options_(options),
-        scene_(read_gltf_scene(options.from, options.animation)),
+        scene_(is_gltf(kind) ? read_gltf_scene(options.from, options.animation)
+                             : read_scene_motion(options.from, options.animation)),
         clock_(film_clock(options.from, scene_, options.rate)),
         rest_(rest_of_nodes(scene_, clock_)),
         model_(read_mesh(options, kind, stance, rest_)),

@@ -1,4 +1,4 @@
-// `mars import --as film` of glTF and GLB: a film of all that the file's scene shows.
+// `mars import --as film` of glTF, GLB, FBX and COLLADA: a film of all that the file's scene shows.
 #pragma once
 
 #include "host/content/importer/file_kind.h"

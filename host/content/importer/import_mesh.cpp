@@ -52,7 +52,7 @@ WrittenSkin skin_of(const MeshFile& file) {
 
 std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, const Stance& stance) {
   std::string text = document::formatted("%.4g x %.4g x %.4g units", extent.x, extent.y, extent.z);
-  if (is_gltf(kind))
+  if (has_nodes(kind))
     text += document::formatted(", %.4g m tall", extent.z / factor) + (factor == 1 ? "" : " in the file");
   return text + ", the file's " + stance.up + " upward";
 }

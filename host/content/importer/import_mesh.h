@@ -18,7 +18,7 @@ struct Stance {
   glm::dmat3 upright;
 };
 
-// "1.2 x 0.33 x 1.45 units, 1.45 m tall, the file's y upward": only glTF says what its unit is.
+// "1.2 x 0.33 x 1.45 units, 1.45 m tall, the file's y upward": only scenes say what their unit is.
 std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, const Stance& stance);
 
 // Reads options.from; `rest` as in MeshOptions. Refuses to replace a file that is read with it.

@@ -20,16 +20,15 @@ modeler::Mesh::Place unit_normal(const glm::dvec3& normal, const glm::dvec3& ext
 }
 
 // A face that cannot be drawn as it stands is added in triangles.
-void add_drawable(modeler::Mesh& mesh, std::vector<std::uint32_t> face) {
-  if (!mesh.normals.empty() && modeler::turned_inside(mesh, face)) std::reverse(face.begin(), face.end());
-  const auto add = [&](const auto& corners) {
-    mesh.corners.insert(mesh.corners.end(), std::begin(corners), std::end(corners));
+void add_drawable(modeler::Mesh& mesh, const std::vector<std::uint32_t>& face) {
+  const auto add = [&](std::vector<std::uint32_t> corners) {
+    if (!mesh.normals.empty() && modeler::turned_inside(mesh, corners)) std::ranges::reverse(corners);
+    mesh.corners.insert(mesh.corners.end(), corners.begin(), corners.end());
     mesh.ends.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
   };
   if (face.size() == 3 || (face.size() <= modeler::kMostCorners && modeler::split(mesh, face))) return add(face);
   for (std::size_t k = 1; k + 1 < face.size(); ++k)
-    if (face[0] != face[k] && face[k] != face[k + 1] && face[0] != face[k + 1])
-      add(std::array{face[0], face[k], face[k + 1]});
+    if (face[0] != face[k] && face[k] != face[k + 1] && face[0] != face[k + 1]) add({face[0], face[k], face[k + 1]});
 }
 
 }  // namespace

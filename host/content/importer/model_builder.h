@@ -24,6 +24,7 @@ class ModelBuilder {
   // How far the joint turns, as a limb of a figure.
   void limit(std::size_t joint, const std::array<modeler::Limits, 3>& limits) { joints_[joint].limits = limits; }
   const std::string& name_of(std::size_t joint) const { return joints_[joint].name; }
+  glm::dmat3 axes_of(std::size_t joint) const { return joints_[joint].frame.axes(); }
 
   MeshBuilder& mesh(std::size_t joint) { return joints_[joint].mesh; }
 

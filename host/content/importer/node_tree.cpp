@@ -2,11 +2,11 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/importer/assimp_matrix.h"
+#include "host/content/importer/scenes/scene_nodes.h"
 
 namespace mars::importer {
 namespace {
 
-constexpr std::size_t kMostNodes = 1'000'000;
 const glm::dmat4 kIdentity(1);
 
 class TreeReader {
@@ -14,17 +14,20 @@ class TreeReader {
   TreeReader(const std::filesystem::path& path, const GltfSkins* skins, std::span<const glm::dmat4> rest)
       : path_(path), skins_(skins), rest_(rest) {}
 
-  // Assimp makes the one root node of a glTF scene its own, and puts a node of its own above several.
+  // Assimp makes the one root node of a glTF scene its own, and puts a node of its own above several, as above those of
+  // FBX and COLLADA.
   NodeTree read(const aiNode& root) {
     if (skins_ == nullptr) {
       visit(root, modeler::kNone, kIdentity);
       return std::move(tree_);
     }
     tree_.by_number.resize(skins_->nodes.size(), kIdentity);
-    if (skins_->roots.size() == 1)
+    const bool is_root = skins_->is_by_mesh ? skins_->roots == std::vector<std::size_t>{0} : skins_->roots.size() == 1;
+    if (skins_->is_by_mesh) tree_.by_number[0] = skins_->above;
+    if (is_root)
       visit_numbered(root, modeler::kNone, kIdentity, skins_->roots[0]);
     else
-      visit_children(root, modeler::kNone, kIdentity, skins_->roots);
+      visit_children(root, modeler::kNone, skins_->above, skins_->roots);
     return std::move(tree_);
   }
 
@@ -43,12 +46,14 @@ class TreeReader {
   }
 
   void visit_numbered(const aiNode& node, std::size_t parent, const glm::dmat4& above, std::size_t number) {
-    const std::size_t index =
-        add(node, parent, above * (rest_.empty() ? dmat4_of(node.mTransformation) : rest_[number]));
+    const bool is_above = skins_->is_by_mesh && number == 0;
+    const glm::dmat4 own = is_above ? skins_->above : rest_.empty() ? dmat4_of(node.mTransformation) : rest_[number];
+    const std::size_t index = add(node, parent, above * own);
     const GltfNode& gltf = skins_->nodes[number];
     tree_.nodes[index].name = gltf.name;
     tree_.nodes[index].skin = gltf.skin;
     tree_.nodes[index].number = number;
+    tree_.nodes[index].is_pivot = is_pivot(gltf.name);
     const glm::dmat4 matrix = tree_.by_number[number] = tree_.nodes[index].matrix;
     visit_children(node, index, matrix, gltf.children);
   }

@@ -77,10 +77,11 @@ Promised promised_by_stl(std::string_view bytes) {
 // These extensions pack shapes, without which the file cannot be read; other extensions are about what models do not
 // have.
 void refuse_extensions(const std::filesystem::path& path, const Tree& required) {
-  for (const char* extension : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_mesh_quantization"})
+  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization"})
     if (std::find(required.begin(), required.end(), extension) != required.end())
       throw Failure(std::string("has its shapes packed as ") + extension, path.string(),
-                    "export it without compression and quantization");
+                    "export it without quantization, or with Draco's compression: gltf-transform dequantize in.glb "
+                    "out.glb, or through Blender");
 }
 
 std::size_t triangles_of(const Tree& primitive, const Tree& accessors) {
@@ -128,6 +129,7 @@ Promised promised_by_gltf(const std::filesystem::path& path, const Tree& tree) {
 Promised promised_by(const std::filesystem::path& path, FileKind kind, std::string_view bytes, const Tree& gltf) {
   if (kind == FileKind::obj) return promised_by_obj(path, bytes);
   if (kind == FileKind::stl) return promised_by_stl(bytes);
+  if (!is_gltf(kind)) return {};
   return promised_by_gltf(path, gltf);
 }
 

@@ -1,15 +1,12 @@
 #include "host/content/importer/scene_file.h"
 
-#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
 #include <cmath>
-#include <exception>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -26,8 +23,10 @@
 #include "host/content/importer/material_reader.h"
 #include "host/content/importer/model_builder.h"
 #include "host/content/importer/node_tree.h"
+#include "host/content/importer/motions/spindles.h"
 #include "host/content/importer/promised.h"
-#include "host/content/importer/scene_sources.h"
+#include "host/content/importer/scenes/loaded_scene.h"
+#include "host/content/importer/scenes/scene_nodes.h"
 #include "host/content/importer/skin.h"
 #include "host/content/importer/unread_parts.h"
 
@@ -36,38 +35,6 @@ namespace {
 
 void append(std::vector<std::string>& list, const std::vector<std::string>& more) {
   list.insert(list.end(), more.begin(), more.end());
-}
-
-struct Reason {
-  std::string_view part;  // of Assimp's message
-  const char* words;
-};
-
-constexpr Reason kReasons[] = {{"mNumMeshes is 0", "it has no meshes"},
-                               {"No scene", "it has no scene"},
-                               {"contains no faces", "a mesh has no faces"},
-                               {"no vertices", "a mesh has no vertices"},
-                               {" is a POINT", "a face has one corner"},
-                               {" is a LINE", "a face has two corners"},
-                               {"mNumChannels is 0", "an animation moves nothing"},
-                               {"Invalid face index", "a face has a corner that is not in the file"},
-                               {"index out of range", "a face has a corner that is not in the file"},
-                               {"exceeds size of actual data", "a buffer is shorter than it should be"},
-                               {"missing the \"uri\"", "a buffer names no file"},
-                               {"with offset/", "numbers are beyond the end of their buffer"},
-                               {"JSON parse error", "it is not JSON, or cut short"},
-                               {"JSON document", "it is not as glTF should be"},
-                               {"Unsupported glTF version", "its version of glTF is not known"},
-                               {"has the same name as", "two of its bones have one name"},
-                               {"too small", "it is empty or cut short"},
-                               {"is empty", "it is empty or cut short"},
-                               {"unexpected EOF", "it is cut short"}};
-
-// ": it has no meshes"; "" for what Assimp says of its inner workings only.
-std::string reason_in_our_words(std::string_view message) {
-  for (const Reason& reason : kReasons)
-    if (message.find(reason.part) != std::string_view::npos) return std::string(": ") + reason.words;
-  return "";
 }
 
 // Of a face that need not be plane, by Newell's sum; of length 1 where it has an area.
@@ -96,8 +63,8 @@ struct FileItself {
   }
 
   Promised promised;
-  std::optional<GltfSkins> skins;
-  std::optional<LimbMap> limbs;  // by the numbers of nodes
+  std::optional<GltfSkins> skins;  // of scenes; FBX's and COLLADA's are known when Assimp has read them
+  std::optional<LimbMap> limbs;    // by the numbers of nodes
 };
 
 class SceneReader {
@@ -108,26 +75,27 @@ class SceneReader {
         options_(options),
         upright_(options.upright),
         file_(path, kind),
-        sources_(handed_over(std::make_unique<SceneSources>(path))),
-        scene_(load()),
-        tree_(node_tree(path, scene_, file_.skins ? &*file_.skins : nullptr, options.rest)),
+        loaded_(path),
+        scene_(loaded_.scene()),
+        is_skeleton_(is_skeleton()),
+        tree_(node_tree(path, scene_, skins(), options.rest)),
         materials_(path, kind, scene_),
-        builder_(path.string(), options, has_normals(), is_gltf(kind) ? 0 : modeler::kDefaultCrease) {}
+        builder_(path.string(), options, has_normals(), is_gltf(kind) || is_skeleton_ ? 0 : modeler::kDefaultCrease) {}
 
   MeshFile read() {
     check_faces();
-    if (is_gltf(kind_))
+    if (has_nodes(kind_))
       add_joints();
     else
       add_all_to_one();
     MeshFile file = builder_.finish();
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
     file.vertices = file_.promised.vertices.value_or(file.vertices);
-    file.materials = materials_.materials();
+    file.materials = is_skeleton_ ? std::vector<ImportedMaterial>{{kColorOfBones, {}}} : materials_.materials();
     file.limbs = named_limbs_;
     list_what_was_made(file);
     list_not_read(file.not_read);
-    file.companions = sources_.companions();
+    file.companions = loaded_.sources().companions();
     file.companions.insert(file.companions.end(), materials_.textures().companions().begin(),
                            materials_.textures().companions().end());
     return file;
@@ -138,43 +106,23 @@ class SceneReader {
     throw Failure(problem, path_.string(), remedy);
   }
 
-  // No steps of Assimp's own but its check of indices: joining, splitting and smoothing are ours.
-  const aiScene& load() {
-    const aiScene* scene = importer_.ReadFile(path_.string(), aiProcess_ValidateDataStructure);
-    if (scene && scene->mRootNode) return *scene;
-    rethrow_ours();
-    if (!sources_.not_opened().empty())
-      throw Failure("cannot be read", sources_.not_opened().back().string(),
-                    path_.string() + " names it: check that it is there, and its permissions");
-    fail("is no sound mesh file" + reason_in_our_words(importer_.GetErrorString()),
-         "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
+  // Whether it has nodes alone, such as a motion that was exported without its figure.
+  bool is_skeleton() const {
+    if (!has_nodes(kind_) || is_gltf(kind_)) return false;
+    return std::ranges::none_of(std::span(scene_.mMeshes, scene_.mNumMeshes), has_faces_itself);
   }
 
-  const SceneSources& handed_over(std::unique_ptr<SceneSources> sources) {
-    const SceneSources& handed = *sources;
-    importer_.SetIOHandler(sources.release());
-    return handed;
-  }
-
-  // Those that the system and SceneSources threw; what Assimp says of its own load() puts in other words.
-  void rethrow_ours() const {
-    if (!importer_.GetException()) return;
-    try {
-      std::rethrow_exception(importer_.GetException());
-    } catch (const Failure&) {
-      throw;
-    } catch (const std::bad_alloc&) {
-      throw;
-    } catch (const std::exception&) {
-    }
+  const GltfSkins* skins() {
+    if (has_nodes(kind_) && !is_gltf(kind_)) file_.skins = scene_skins(scene_, scene_nodes(path_, scene_));
+    return file_.skins ? &*file_.skins : nullptr;
   }
 
   // STL's are its facets'. A glTF mesh without normals has flat faces (glTF 2.0, 3.7.2.1), whatever others have.
   bool has_normals() const {
     const std::span meshes(scene_.mMeshes, scene_.mNumMeshes);
     if (kind_ == FileKind::stl) return false;
-    return is_gltf(kind_) ? std::ranges::any_of(meshes, &aiMesh::HasNormals)
-                          : std::ranges::all_of(meshes, &aiMesh::HasNormals);
+    return has_nodes(kind_) ? std::ranges::any_of(meshes, &aiMesh::HasNormals)
+                            : std::ranges::all_of(meshes, &aiMesh::HasNormals);
   }
 
   void check_faces() const {
@@ -185,7 +133,7 @@ class SceneReader {
     if (file_.promised.faces.value_or(0) > faces)
       fail("promises " + std::to_string(*file_.promised.faces) + " faces, " + std::to_string(faces) +
                (faces == 1 ? " was read" : " were read"),
-           "export it again, or as another of OBJ, STL, PLY, glTF, GLB");
+           std::string("export it again, or as another of ") + kMeshKinds);
   }
 
   // Of OBJ and STL, whose nodes have no places of their own.
@@ -203,18 +151,18 @@ class SceneReader {
     bones_ = static_cast<std::size_t>(std::ranges::count(bones(), true));
     limbs_ = find_limbs(figure_tree(shown), limb_map_of_nodes(), bones_ >= kBonesOfFigures);
     const bool one_root = !tree_.nodes.empty() && tree_.nodes[0].parent == modeler::kNone && shown[0] &&
-                          file_.skins->roots.size() == 1 && !has_skins();
+                          file_.skins->roots.size() == 1 && !has_skins() && !is_skeleton_ && !tree_.nodes[0].is_pivot;
     if (!one_root) builder_.add_joint(options_.joint, modeler::kNone, {});
     std::vector<std::size_t> joints(tree_.nodes.size(), 0);
     for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
       const PlacedNode& node = tree_.nodes[i];
-      if (shown[i]) {
-        const std::size_t parent = node.parent == modeler::kNone ? 0 : joints[node.parent];
-        joints[i] = add_joint(i, one_root && i == 0 ? modeler::kNone : parent);
-      }
+      if (!shown[i]) continue;
+      const std::size_t parent = node.parent == modeler::kNone ? 0 : joints[node.parent];
+      joints[i] = node.is_pivot ? parent : add_joint(i, one_root && i == 0 ? modeler::kNone : parent);
+      nodes_as_joints_ += !node.is_pivot;
     }
     name_limbs(joints);
-    nodes_as_joints_ = std::ranges::count(shown, true);
+    if (is_skeleton_) add_spindles(shown, joints);
     std::vector<std::size_t> by_number(tree_.by_number.size(), 0);  // joints of the file's nodes
     for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
       if (tree_.nodes[i].number != modeler::kNone) by_number[tree_.nodes[i].number] = joints[i];
@@ -226,35 +174,103 @@ class SceneReader {
     return std::ranges::any_of(tree_.nodes, [](const PlacedNode& node) { return node.skin.has_value(); });
   }
 
-  bool has_faces(const PlacedNode& node) const {
+  static bool has_faces_itself(const aiMesh* mesh) {
     const auto is_face = [](const aiFace& face) { return face.mNumIndices >= 3; };
-    return std::ranges::any_of(std::span(node.node->mMeshes, node.node->mNumMeshes), [&](unsigned number) {
-      const aiMesh& mesh = *scene_.mMeshes[number];
-      return std::ranges::any_of(std::span(mesh.mFaces, mesh.mNumFaces), is_face);
+    return std::ranges::any_of(std::span(mesh->mFaces, mesh->mNumFaces), is_face);
+  }
+
+  // Of glTF, all meshes of a node; FBX and COLLADA may have others beside them.
+  bool has_skin(const PlacedNode& node, unsigned mesh) const {
+    return node.skin && (is_gltf(kind_) || scene_.mMeshes[mesh]->HasBones());
+  }
+
+  // In meshes with a skin, or in those without.
+  bool has_faces(const PlacedNode& node, bool with_skin) const {
+    return std::ranges::any_of(std::span(node.node->mMeshes, node.node->mNumMeshes), [&](unsigned mesh) {
+      return has_skin(node, mesh) == with_skin && has_faces_itself(scene_.mMeshes[mesh]);
     });
+  }
+
+  // The file's nodes that are the bones of a node's mesh, in the order of Assimp's bones.
+  const std::vector<std::size_t>& bones_of(const PlacedNode& node, unsigned mesh) const {
+    return file_.skins->skins[file_.skins->is_by_mesh ? mesh : *node.skin];
   }
 
   // Of the file's nodes, those that are bones of a mesh.
   std::vector<bool> bones() const {
     std::vector<bool> bones(tree_.by_number.size());
     for (const PlacedNode& node : tree_.nodes) {
-      if (!node.skin || !has_faces(node)) continue;
-      for (const std::size_t number : file_.skins->skins[*node.skin]) bones[number] = true;
+      for (unsigned i = 0; i < node.node->mNumMeshes; ++i) {
+        const unsigned mesh = node.node->mMeshes[i];
+        if (!has_skin(node, mesh) || !has_faces_itself(scene_.mMeshes[mesh])) continue;
+        for (const std::size_t number : bones_of(node, mesh)) bones[number] = true;
+      }
     }
     return bones;
   }
 
   // Those with a mesh of their own, or below them, that no skin places; and bones, with all above them.
   std::vector<bool> shown_nodes() const {
+    if (is_skeleton_) return skeleton_nodes();
     const std::vector<bool> is_bone = bones();
     std::vector<bool> shown(tree_.nodes.size());
     for (std::size_t i = shown.size(); i-- > 0;) {
       const PlacedNode& node = tree_.nodes[i];
-      if (!node.skin && has_faces(node)) shown[i] = true;
+      if (has_faces(node, false)) shown[i] = true;
       if (node.number != modeler::kNone && is_bone[node.number]) shown[i] = true;
       if (shown[i] && node.parent != modeler::kNone) shown[node.parent] = true;
     }
     return shown;
+  }
+
+  // Those that hang together: cameras, lights and what they look at stand alone.
+  std::vector<bool> skeleton_nodes() const {
+    std::vector<std::size_t> root(tree_.nodes.size()), count(tree_.nodes.size());
+    for (std::size_t i = 0; i < root.size(); ++i) {
+      root[i] = tree_.nodes[i].parent == modeler::kNone ? i : root[tree_.nodes[i].parent];
+      count[root[i]] += !tree_.nodes[i].is_pivot;
+    }
+    const bool all = std::ranges::none_of(count, [](std::size_t nodes) { return nodes > 1; });
+    std::vector<bool> shown;
+    for (const std::size_t each : root) shown.push_back(all || count[each] > 1);
+    return shown;
+  }
+
+  std::size_t above_pivots(std::size_t node) const {
+    std::size_t above = tree_.nodes[node].parent;
+    while (above != modeler::kNone && tree_.nodes[above].is_pivot) above = tree_.nodes[above].parent;
+    return above;
+  }
+
+  // Bones to be seen, for a skeleton without a figure. `joints`: the builder's, by node.
+  void add_spindles(const std::vector<bool>& shown, const std::vector<std::size_t>& joints) {
+    const auto place = [&](std::size_t node) { return glm::dvec3(in_our_axes(tree_.nodes[node].matrix)[3]); };
+    std::vector<std::vector<glm::dvec3>> ends(tree_.nodes.size());
+    modeler::Box box = kEmptyBox;
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
+      if (!shown[i] || tree_.nodes[i].is_pivot) continue;
+      box = {glm::min(box.min, place(i)), glm::max(box.max, place(i))};
+      if (const std::size_t above = above_pivots(i); above != modeler::kNone)
+        ends[above].push_back(place(i) - place(above));
+    }
+    const double size = glm::length(box.max - box.min);
+    if (!(size > 0)) fail("has no meshes, and nodes at one place only", "export its figure with it");
+    for (std::size_t i = 0; i < tree_.nodes.size(); ++i)
+      if (shown[i] && !tree_.nodes[i].is_pivot) add_spindles(spindles_of(ends[i], size), joints[i]);
+  }
+
+  void add_spindles(const Spindles& spindles, std::size_t joint) {
+    if (spindles.faces.empty()) return;
+    MeshBuilder& builder = builder_.mesh(joint);
+    const glm::dmat3 to_axes = glm::transpose(builder_.axes_of(joint));
+    const std::size_t part = builder.part_of(0);
+    std::vector<std::uint32_t> face;
+    for (const auto& corners : spindles.faces) {
+      face.clear();
+      for (const std::size_t corner : corners)
+        face.push_back(builder.vertex(part, to_axes * spindles.vertices[corner], glm::dvec3(0)));
+      builder.add_face(part, face);
+    }
   }
 
   // The nodes, of which those that become joints are a figure's.
@@ -263,9 +279,11 @@ class SceneReader {
     FigureTree tree;
     for (std::size_t i = 0; i < tree_.nodes.size(); ++i) {
       const PlacedNode& node = tree_.nodes[i];
-      const bool moves = (node.number != modeler::kNone && is_bone[node.number]) || (!node.skin && has_faces(node));
-      tree.push_back({shown[i] ? node.name : "", shown[i] ? node.parent : modeler::kNone,
-                      glm::dvec3(in_our_axes(node.matrix)[3]), shown[i] && moves});
+      const bool moves =
+          is_skeleton_ || (node.number != modeler::kNone && is_bone[node.number]) || has_faces(node, false);
+      const bool is_joint = shown[i] && !node.is_pivot;
+      tree.push_back({is_joint ? node.name : "", is_joint ? above_pivots(i) : modeler::kNone,
+                      glm::dvec3(in_our_axes(node.matrix)[3]), is_joint && moves});
     }
     return tree;
   }
@@ -300,20 +318,22 @@ class SceneReader {
         builder_.add_joint(parent == modeler::kNone ? options_.joint : name, parent, frame, node.number);
     if (anatomy && anatomy->limits) builder_.limit(joint, *anatomy->limits);
     uneven_joints_ += !scales_evenly(tree_.above(node));
-    if (node.skin) return joint;  // its mesh stands elsewhere
     const glm::dmat4 within(within_frame(frame, glm::dmat3(matrix)) * glm::dmat3(upright_));
-    for (unsigned i = 0; i < node.node->mNumMeshes; ++i) add(*scene_.mMeshes[node.node->mMeshes[i]], joint, within);
+    for (unsigned i = 0; i < node.node->mNumMeshes; ++i)
+      if (const unsigned mesh = node.node->mMeshes[i]; !has_skin(node, mesh))  // else it stands elsewhere
+        add(*scene_.mMeshes[mesh], joint, within);
     return joint;
   }
 
   // The mesh stands where its heaviest bone puts it in the file. If the file's pose is the one in which the skin was
   // bound, so do all its bones.
   void add_skinned(const PlacedNode& node, const std::vector<std::size_t>& by_number) {
-    const std::vector<std::size_t>& numbers = file_.skins->skins[*node.skin];
-    std::vector<glm::dmat4> joints;
-    for (const std::size_t number : numbers) joints.push_back(upright_ * tree_.by_number[number]);
     for (unsigned i = 0; i < node.node->mNumMeshes; ++i) {
+      if (!has_skin(node, node.node->mMeshes[i])) continue;
       const aiMesh& mesh = *scene_.mMeshes[node.node->mMeshes[i]];
+      const std::vector<std::size_t>& numbers = bones_of(node, node.node->mMeshes[i]);
+      std::vector<glm::dmat4> joints;
+      for (const std::size_t number : numbers) joints.push_back(upright_ * tree_.by_number[number]);
       MeshSkin skin = importer::skin_of(mesh, joints);
       glm::dmat4 to_model = skin.to_file[skin.heaviest];
       if (!(std::abs(glm::determinant(glm::dmat3(to_model))) > 0)) to_model = upright_;
@@ -359,8 +379,7 @@ class SceneReader {
       const std::span corners(mesh.mFaces[f].mIndices, mesh.mFaces[f].mNumIndices);
       if (corners.size() < 3) continue;  // a point, a line
       places.clear();
-      for (const unsigned corner : corners)
-        places.emplace_back(matrix * glm::dvec4(dvec3_of(mesh.mVertices[corner]), 1));
+      for (const unsigned corner : corners) places.emplace_back(matrix * glm::dvec4(morphed(mesh, corner), 1));
       const glm::dvec3 flat = mesh.HasNormals() ? glm::dvec3(0) : flat_normal(places) * (mirrored ? -1.0 : 1.0);
       face.clear();
       for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -378,6 +397,25 @@ class SceneReader {
     }
   }
 
+  // Of glTF, with the targets at the weights that the mesh has; Assimp gives their places, not what they add.
+  glm::dvec3 morphed(const aiMesh& mesh, unsigned vertex) const {
+    const glm::dvec3 own = dvec3_of(mesh.mVertices[vertex]);
+    glm::dvec3 place = own;
+    for (unsigned i = 0; is_gltf(kind_) && i < mesh.mNumAnimMeshes; ++i)
+      if (const aiAnimMesh& target = *mesh.mAnimMeshes[i]; target.HasPositions() && target.mWeight != 0)
+        place += double(target.mWeight) * (dvec3_of(target.mVertices[vertex]) - own);
+    return place;
+  }
+
+  // Morph targets that change the shape at rest.
+  std::size_t targets_at_rest() const {
+    std::size_t count = 0;
+    for (const aiMesh* mesh : std::span(scene_.mMeshes, scene_.mNumMeshes))
+      for (unsigned i = 0; is_gltf(kind_) && i < mesh->mNumAnimMeshes; ++i)
+        count += mesh->mAnimMeshes[i]->HasPositions() && mesh->mAnimMeshes[i]->mWeight != 0;
+    return count;
+  }
+
   void list_what_was_made(MeshFile& file) const {
     const auto add = [&](const char* what, std::size_t count, std::string_view one, std::string_view several) {
       if (count > 0) file.made.push_back(what + document::counted(count, one, several));
@@ -390,6 +428,7 @@ class SceneReader {
         static_cast<std::size_t>(std::ranges::count_if(
             file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
         "material", "materials");
+    add("the shape at the file's weights of ", targets_at_rest(), "morph target", "morph targets");
     add("a mean colour of ", materials_.textures_of_colors(), "texture", "textures");
     add("a mean roughness and metal of ", materials_.textures_of_surfaces(), "texture", "textures");
   }
@@ -427,9 +466,9 @@ class SceneReader {
   MeshOptions options_;
   glm::dmat4 upright_;
   FileItself file_;
-  Assimp::Importer importer_;
-  const SceneSources& sources_;  // the importer's
+  LoadedScene loaded_;
   const aiScene& scene_;
+  bool is_skeleton_;
   NodeTree tree_;
   MaterialReader materials_;
   ModelBuilder builder_;

@@ -1,12 +1,14 @@
 #include "host/content/importer/scene_sources.h"
 
 #include "hal/failure/failure.h"
+#include "host/content/importer/companion.h"
 
 namespace mars::importer {
 
 namespace fs = std::filesystem;
 
 Assimp::IOStream* SceneSources::Open(const char* name, const char* mode) {
+  if (mesh_ != name) companion(mesh_, fs::path(name).lexically_relative(folder_).string());
   std::error_code none;
   const fs::file_status status = fs::status(name, none);
   if (fs::exists(status) && !fs::is_regular_file(status))

@@ -10,9 +10,11 @@ namespace mars::importer {
 
 class SceneSources : public Assimp::DefaultIOSystem {
  public:
-  explicit SceneSources(std::filesystem::path mesh) : mesh_(std::move(mesh)) {}
+  explicit SceneSources(std::filesystem::path mesh)
+      : mesh_(std::move(mesh)), folder_(mesh_.has_parent_path() ? mesh_.parent_path() : ".") {}
 
-  // Throws Failure where `name` is there and is no regular file: a pipe would wait, a device never end.
+  // Throws Failure where `name` is outside of the mesh's folder, or is there and no regular file: a pipe would wait, a
+  // device never end.
   Assimp::IOStream* Open(const char* name, const char* mode) override;
 
   // What Open() has opened besides the mesh file, and what it could not open: both in the order of its calls.
@@ -20,7 +22,7 @@ class SceneSources : public Assimp::DefaultIOSystem {
   const std::vector<std::filesystem::path>& not_opened() const { return not_opened_; }
 
  private:
-  std::filesystem::path mesh_;
+  std::filesystem::path mesh_, folder_;
   std::vector<std::filesystem::path> companions_, not_opened_;
 };
 

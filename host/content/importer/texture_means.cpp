@@ -1,5 +1,6 @@
 #include "host/content/importer/texture_means.h"
 
+#include <algorithm>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -7,6 +8,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/apart.h"
+#include "host/content/importer/companion.h"
 #include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
@@ -36,21 +38,35 @@ bool TextureMeans::has(const std::string& texture) const {
 }
 
 std::optional<images::PictureMean> TextureMeans::read(const std::string& texture) {
-  if (texture.starts_with('*')) {
-    const auto number = document::number_in<unsigned>(std::string_view(texture).substr(1));
-    if (!number || *number >= scene_.mNumTextures || scene_.mTextures[*number]->mHeight != 0) return std::nullopt;
-    const aiTexture& picture = *scene_.mTextures[*number];
-    return mean_of_bytes({reinterpret_cast<const char*>(picture.pcData), picture.mWidth},
-                         "picture " + std::to_string(*number + 1));
-  }
-  const std::filesystem::path path = mesh_.parent_path() / (is_gltf(kind_) ? percent_decoded(texture) : texture);
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) {
+  const auto [picture, number] = scene_.GetEmbeddedTextureAndIndex(texture.c_str());
+  if (picture != nullptr && picture->mHeight == 0)
+    return mean_of_bytes({reinterpret_cast<const char*>(picture->pcData), picture->mWidth},
+                         "picture " + std::to_string(number + 1));
+  if (texture.starts_with('*')) return std::nullopt;
+  const auto path = file_of(texture);
+  if (!path) {
     not_read_.push_back("texture " + document::printable(texture) + " (no such file beside the mesh)");
     return std::nullopt;
   }
-  companions_.push_back(path);
-  return mean_of_bytes(document::read_file(path, kLargestPicture), document::printable(texture));
+  companions_.push_back(*path);
+  return mean_of_bytes(document::read_file(*path, kLargestPicture), document::printable(texture));
+}
+
+// FBX and COLLADA name files as they were where they were written, such as "C:\\work\\skin.png"; these may lie beside
+// the mesh now.
+std::optional<std::filesystem::path> TextureMeans::file_of(const std::string& texture) const {
+  std::string name = is_gltf(kind_) ? percent_decoded(texture) : texture;
+  std::vector<std::filesystem::path> names{name};
+  if (has_nodes(kind_) && !is_gltf(kind_)) {
+    std::ranges::replace(name, '\\', '/');
+    names = {name, std::filesystem::path(name).filename()};
+  }
+  for (const std::filesystem::path& each : names) {
+    std::error_code none;
+    const std::filesystem::path path = mesh_.parent_path() / each;
+    if (stays_inside(each) && std::filesystem::is_regular_file(path, none)) return path;
+  }
+  return std::nullopt;
 }
 
 std::optional<images::PictureMean> TextureMeans::mean_of_bytes(std::string_view bytes, const std::string& name) {

@@ -31,6 +31,7 @@ class TextureMeans {
 
  private:
   std::optional<images::PictureMean> read(const std::string& texture);
+  std::optional<std::filesystem::path> file_of(const std::string& texture) const;
   std::optional<images::PictureMean> mean_of_bytes(std::string_view bytes, const std::string& name);
 
   std::filesystem::path mesh_;

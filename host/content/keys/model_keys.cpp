@@ -356,8 +356,8 @@ Object skin() {
         .without = "the shape was made for the model at rest"},
        {.name = "blend",
         .type = "choice",
-        .meaning = "between its bones a point goes straight, by the sum of their matrices (`\"linear\"`), or round an "
-                   "arc (`\"dual-quaternions\"`), so that limbs that bend far stay full",
+        .meaning = "between its bones a point goes straight, by the sum of their matrices (`linear`), or round an "
+                   "arc (`dual-quaternions`), so that limbs that bend far stay full",
         .json = R"("linear")",
         .choices = kBlends}}};
 }

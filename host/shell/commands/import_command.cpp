@@ -76,7 +76,8 @@ void add_motion(cli::Command command, importer::ImportOptions& options) {
       [&options](std::size_t number) {
         options.as = number == 0 ? importer::ImportAs::model : importer::ImportAs::film;
       },
-      "What to make, of .gltf and .glb either; default: a film of .bvh and .amc files, a model of others. Example: "
+      "What to make, of .gltf, .glb, .fbx and .dae either; default: a film of .bvh and .amc files, a model of others. "
+      "Example: "
       "--as film");
   command
       .add(
@@ -93,14 +94,15 @@ void add_motion(cli::Command command, importer::ImportOptions& options) {
       .type("FRAMES");
   command
       .add("--animation", options.animation,
-           "The glTF animation that a film shows; default: the file's first. Example: --animation Walk")
+           "The animation of a scene that a film shows; default: the file's first. Example: --animation Walk")
       .type("NAME");
   command.add_choice(
       "--motion", {"keys", "matrices"},
       [&options](std::size_t number) {
         options.motion = number == 0 ? importer::ImportMotion::keys : importer::ImportMotion::matrices;
       },
-      "What moves the actor of a film of glTF: keys, which people can change, but joints only turn; or matrices, as in "
+      "What moves the actor of a film of a scene: keys, which people can change, but joints only turn; or matrices, as "
+      "in "
       "the file; default: keys if they show all of the motion. Example: --motion keys");
   command
       .add("--skeleton", options.skeleton,
@@ -118,7 +120,9 @@ void add_import(cli::Command app) {
       app.add_command("import", "Make a model or a film from a mesh, a motion or a patch file of another program");
   command
       .add("FILE", *files,
-           "A mesh (.obj, .stl, .ply, .gltf, .glb), a motion (.bvh, .amc), a skeleton (.asf) or a patch file (.bpt); "
+           "A mesh or scene (.obj, .stl, .ply, .gltf, .glb, .vrm, .fbx, .dae), a motion (.bvh, .amc), a skeleton "
+           "(.asf) or "
+           "patches (.bpt, .pov, .rib); "
            "after an .amc further ones, which follow it. Example: teapot.bpt")
       .required();
   command.add("-o,--output", options->to, "The model or film file. Example: -o teapot.json").required().type("FILE");
@@ -126,7 +130,7 @@ void add_import(cli::Command app) {
       .type("NAME");
   add_motion(command, *options);
   add_axis(command, "--up", options->up,
-           "The file's axis that points up; it becomes z. Default: y for OBJ, glTF and motions, z for others. Example: "
+           "The file's axis that points up; it becomes z. Default: z for STL, PLY and .bpt, y for others. Example: "
            "--up -y");
   add_axis(command, "--front", options->front,
            "The file's axis along which the model looks; it becomes x. Figures in glTF look along z. Default: z "

@@ -12,7 +12,7 @@
 namespace mars::fuzz {
 namespace {
 
-constexpr std::array<std::string_view, 6> kEndings{"obj", "stl", "gltf", "glb", "ply", "bpt"};
+constexpr std::array<std::string_view, 8> kEndings{"obj", "stl", "gltf", "glb", "fbx", "dae", "ply", "bpt"};
 
 }  // namespace
 

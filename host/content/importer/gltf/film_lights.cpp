@@ -29,9 +29,20 @@ glm::dvec3 axis_of(const glm::dmat4& node) {
 double brightness_in_the_middle(const GltfLight& light, const glm::dmat4& node, const glm::dvec3& middle, double size,
                                 double factor) {
   const double color = std::max({light.color.x, light.color.y, light.color.z});
+  if (light.in_the_middle) return color * light.intensity;
   if (light.kind == GltfLightKind::directional) return color * light.intensity / std::numbers::pi;
   const double metres = std::max(glm::length(glm::dvec3(node[3]) - middle), kNearLight * size) / factor;
   return color * light.intensity / (metres * metres * std::numbers::pi);
+}
+
+// In lux and candela.
+GltfLight in_units(GltfLight light, const glm::dmat4& node, const glm::dvec3& middle, double size, double factor) {
+  if (!light.in_the_middle) return light;
+  const double intensity = light.intensity;
+  light.in_the_middle = false;
+  light.intensity =
+      intensity / brightness_in_the_middle({.node = light.node, .kind = light.kind}, node, middle, size, factor);
+  return light;
 }
 
 double dimmed(double brightness) {
@@ -97,7 +108,7 @@ class LightText {
     if (light_.kind == GltfLightKind::spot) text.add("at", at, kLightTrue * size);
   }
 
-  const GltfLight& light_;
+  GltfLight light_;
   std::vector<glm::dmat4> places_;  // of its node, by frame
 };
 
@@ -116,7 +127,8 @@ FilmLights film_lights(const std::vector<GltfLight>& lights, const NodesInFilm& 
   film.dimmed = dimmed(brightness);
   film.json = Json::array();
   for (std::size_t i = 0; i < film.lights; ++i)
-    film.json.push_back(LightText(lights[i], nodes).json(size, factor, film.dimmed));
+    film.json.push_back(LightText(in_units(lights[i], first[lights[i].node], middle, size, factor), nodes)
+                            .json(size, factor, film.dimmed));
   return film;
 }
 

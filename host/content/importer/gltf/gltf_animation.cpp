@@ -92,11 +92,16 @@ GltfChannel channel_of(const std::filesystem::path& path, const Tree& sampler, s
                        const GltfBuffers& buffers) {
   const Tree& way = at(sampler, "interpolation");
   const std::string word = way.is_string() ? way.get<std::string>() : "LINEAR";
-  GltfChannel channel{node, what,
+  GltfChannel channel{node,
+                      what,
                       word == "STEP"          ? GltfWay::step
                       : word == "CUBICSPLINE" ? GltfWay::cubic
                                               : GltfWay::linear,
-                      buffers.read(at(sampler, "input")).numbers, buffers.read(at(sampler, "output"))};
+                      {},
+                      buffers.read(at(sampler, "output"))};
+  GltfNumbers times = buffers.read(at(sampler, "input"));
+  if (times.width != 1) refuse(path, "has an animation whose times are no single numbers", "export it again");
+  channel.times = std::move(times.numbers);
   const std::size_t width = what == GltfPath::rotation ? 4 : 3,
                     values = channel.times.size() * (channel.way == GltfWay::cubic ? 3 : 1);
   if (channel.times.empty() || channel.values.width != width || channel.values.count() != values)
@@ -169,6 +174,16 @@ double GltfAnimation::end() const {
   return greatest;
 }
 
+std::optional<std::size_t> shown_animation(const std::filesystem::path& path, const std::vector<std::string>& names,
+                                           const std::string& name) {
+  const auto found = name.empty() ? names.begin() : std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  if (name.empty()) return std::nullopt;
+  refuse(path, "has no animation '" + document::printable(name) + "'",
+         names.empty() ? "leave out --animation: it has none"
+                       : "it has: " + document::printable(document::joined(names), 400));
+}
+
 GltfNodes gltf_nodes(const std::filesystem::path& path, const Tree& gltf) {
   GltfNodes nodes;
   const Tree& list = at(gltf, "nodes");
@@ -183,19 +198,19 @@ GltfNodes gltf_nodes(const std::filesystem::path& path, const Tree& gltf) {
 
 GltfAnimations gltf_animations(const std::filesystem::path& path, const Tree& gltf, const GltfBuffers& buffers,
                                const std::string& name) {
+  const Tree& trees = at(gltf, "animations");
   GltfAnimations animations;
-  for (const Tree& tree : at(gltf, "animations")) {
-    const std::string its_name =
-        name_of_animation(tree, animations.others.size() + std::size_t{animations.shown.has_value()});
-    if (animations.shown || (!name.empty() && name != its_name))
-      animations.others.push_back(its_name);
+  std::vector<std::string> names;
+  for (const Tree& tree : trees) names.push_back(name_of_animation(tree, names.size()));
+  const std::optional<std::size_t> shown = shown_animation(path, names, name);
+  std::size_t number = 0;
+  for (const Tree& tree : trees) {
+    if (number == shown)
+      animations.shown = animation_of(path, gltf, buffers, tree, names[number]);
     else
-      animations.shown = animation_of(path, gltf, buffers, tree, its_name);
+      animations.others.push_back(names[number]);
+    ++number;
   }
-  if (!animations.shown && !name.empty())
-    refuse(path, "has no animation '" + document::printable(name) + "'",
-           animations.others.empty() ? "leave out --animation: it has none"
-                                     : "it has: " + document::printable(document::joined(animations.others), 400));
   return animations;
 }
 

@@ -60,11 +60,15 @@ struct GltfNodes {
   std::vector<std::size_t> parents;  // modeler::kNone of a node that stands on no other
 };
 
+// Which of the animations `names` is `name`, or the first where that is ""; none of a file without any. Refuses a file
+// without it, in a failure that names those that there are.
+std::optional<std::size_t> shown_animation(const std::filesystem::path& path, const std::vector<std::string>& names,
+                                           const std::string& name);
+
 // Refuses nodes that are below themselves.
 GltfNodes gltf_nodes(const std::filesystem::path& path, const Tree& gltf);
 
-// The animation `name`, or the first where that is "". Refuses a file without it, in a failure that names those that
-// there are, and channels whose numbers cannot be read.
+// With shown_animation(). Refuses channels whose numbers cannot be read.
 GltfAnimations gltf_animations(const std::filesystem::path& path, const Tree& gltf, const GltfBuffers& buffers,
                                const std::string& name);
 

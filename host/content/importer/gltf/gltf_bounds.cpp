@@ -41,6 +41,23 @@ bool is_accessor_sound(const Tree& accessor, const Tree& views) {
   return stride <= kMost && count <= kMost && is_within(accessor, stride * (count - 1) + element, view);
 }
 
+// Where some numbers of an accessor are given by their places.
+bool is_sparse_sound(const Tree& accessor, const Tree& views) {
+  const Tree& sparse = at(accessor, "sparse");
+  if (sparse.is_null()) return true;
+  const std::size_t element = components_of(at(accessor, "type")) * bytes_of(number(at(accessor, "componentType"), 0));
+  const std::size_t count = number(at(sparse, "count"), 0);
+  const auto fits = [&](const char* key, std::size_t bytes) {
+    const Tree& part = at(sparse, key);
+    const Tree& view = item(views, at(part, "bufferView"));
+    return !view.is_null() && bytes > 0 && count <= kMost && is_within(part, count * bytes, view);
+  };
+  const std::size_t type = number(at(at(sparse, "indices"), "componentType"), 0);
+  const bool is_whole = type == 5121 || type == 5123 || type == 5125;
+  return is_whole && number(at(accessor, "count"), 0) <= kMost && fits("indices", bytes_of(type)) &&
+         fits("values", element);
+}
+
 }  // namespace
 
 void require_within_buffers(const std::filesystem::path& path, const Tree& gltf) {
@@ -50,7 +67,8 @@ void require_within_buffers(const std::filesystem::path& path, const Tree& gltf)
     const Tree& buffer = item(buffers, at(view, "buffer"));
     sound = sound && (buffer.is_null() || is_within(view, number(at(view, "byteLength"), 0), buffer));
   }
-  for (const Tree& accessor : at(gltf, "accessors")) sound = sound && is_accessor_sound(accessor, views);
+  for (const Tree& accessor : at(gltf, "accessors"))
+    sound = sound && is_accessor_sound(accessor, views) && is_sparse_sound(accessor, views);
   if (!sound) throw Failure("has numbers beyond the end of their buffer", path.string(), "export it again");
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/content/document/file.h"
+#include "host/content/importer/companion.h"
 
 namespace mars::importer {
 namespace {
@@ -77,7 +78,7 @@ std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
     if (!uri.is_string() || uri.get_ref<const std::string&>().starts_with("data:")) continue;
     std::error_code error;
     const std::uintmax_t size =
-        std::filesystem::file_size(path.parent_path() / percent_decoded(uri.get_ref<const std::string&>()), error);
+        std::filesystem::file_size(companion(path, percent_decoded(uri.get_ref<const std::string&>())), error);
     if (!error) sum += size;
   }
   return sum;

@@ -9,11 +9,14 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/importer/companion.h"
 
 namespace mars::importer {
 namespace {
 
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
+constexpr std::size_t kFloats = 5126, kWholeNumbers = 5125;  // types of components, of 4 bytes each
+constexpr std::size_t kMostSparse = std::size_t{1} << 24;    // elements without a view of their own
 
 int base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -83,7 +86,7 @@ GltfBuffers::GltfBuffers(const std::filesystem::path& path, std::string_view byt
       const std::size_t comma = text.find(',');
       content = text.starts_with("data:")
                     ? base64_decoded(comma == std::string::npos ? "" : std::string_view(text).substr(comma + 1))
-                    : document::read_file(path.parent_path() / percent_decoded(text), kLargestMeshFile);
+                    : document::read_file(companion(path, percent_decoded(text)), kLargestMeshFile);
     }
     buffers_.push_back(std::move(content));
   }
@@ -95,33 +98,69 @@ std::string_view GltfBuffers::buffer(const Tree& index) const {
   return item(at(gltf_, "buffers"), index).contains("uri") ? std::string_view(buffers_[place]) : own_;
 }
 
-GltfNumbers GltfBuffers::read(const Tree& index) const {
-  const auto refuse = [&](const char* problem) {
-    throw Failure("has an animation whose accessor " + index.dump() + " " + problem, path_.string(),
-                  "export it again, without sparse or compressed accessors");
-  };
-  const Tree& accessor = item(at(gltf_, "accessors"), index);
-  const Tree& view = item(at(gltf_, "bufferViews"), at(accessor, "bufferView"));
-  if (accessor.is_null()) refuse("is not there");
-  if (accessor.contains("sparse") || view.is_null()) refuse("is sparse or has no numbers");
-  const std::size_t component = number(at(accessor, "componentType"), 0), size = size_of(component);
-  GltfNumbers read{width_of(at(accessor, "type")), {}};
-  if (size == 0 || read.width == 0) refuse("has numbers of a kind that is not known");
-  const std::size_t count = number(at(accessor, "count"), 0), element = size * read.width,
-                    stride = number(at(view, "byteStride"), element), first = number(at(accessor, "byteOffset"), 0),
-                    length = number(at(view, "byteLength"), 0);
-  const std::string_view bytes = buffer(at(view, "buffer"));
-  const std::size_t begin = number(at(view, "byteOffset"), 0);
+// Elements in the bytes of a view; none: they are not all within it.
+struct GltfBuffers::Run {
+  std::string_view bytes;
+  std::size_t first = 0, stride = 0, size = 0;
+  bool fits = false;
+
+  std::string_view at(std::size_t element, std::size_t part) const {
+    return bytes.substr(first + element * stride + part * size);
+  }
+};
+
+GltfBuffers::Run GltfBuffers::run(const Tree& part, std::size_t count, std::size_t component, std::size_t width) const {
+  const Tree& view = item(at(gltf_, "bufferViews"), at(part, "bufferView"));
+  const std::size_t size = size_of(component), element = size * width, stride = number(at(view, "byteStride"), element),
+                    first = number(at(part, "byteOffset"), 0), length = number(at(view, "byteLength"), 0),
+                    begin = number(at(view, "byteOffset"), 0);
+  const std::string_view bytes = view.is_null() ? std::string_view() : buffer(at(view, "buffer"));
   const bool fits = begin <= bytes.size() && length <= bytes.size() - begin && first <= length && stride >= element &&
                     stride <= 252 &&
                     (count == 0 || (element <= length - first && (count - 1) <= (length - first - element) / stride));
-  if (!fits) refuse("is beyond the end of its buffer");
-  for (std::size_t i = 0; i < count; ++i)
-    for (std::size_t j = 0; j < read.width; ++j) {
-      read.numbers.push_back(component_at(bytes.substr(begin + first + i * stride + j * size), component));
-      if (!std::isfinite(read.numbers.back())) refuse("has a number that is none");
-    }
+  return {bytes, begin + first, stride, size, fits};
+}
+
+GltfNumbers GltfBuffers::read(const Tree& index) const {
+  const auto refuse = [&](const char* problem) {
+    throw Failure("has an animation whose accessor " + index.dump() + " " + problem, path_.string(), "export it again");
+  };
+  const Tree& accessor = item(at(gltf_, "accessors"), index);
+  if (accessor.is_null()) refuse("is not there");
+  const bool is_sparse = accessor.contains("sparse"), has_view = accessor.contains("bufferView");
+  if (!has_view && !is_sparse) refuse("has no numbers");
+  const std::size_t component = number(at(accessor, "componentType"), 0), count = number(at(accessor, "count"), 0);
+  GltfNumbers read{width_of(at(accessor, "type")), {}};
+  if (size_of(component) == 0 || read.width == 0) refuse("has numbers of a kind that is not known");
+  if (!has_view && count > kMostSparse) refuse("is sparse, and has too many numbers");
+  const Run all = has_view ? run(accessor, count, component, read.width) : Run{};
+  if (has_view && !all.fits) refuse("is beyond the end of its buffer");
+  if (!has_view) read.numbers.resize(count * read.width);
+  for (std::size_t i = 0; has_view && i < count; ++i)
+    for (std::size_t j = 0; j < read.width; ++j) read.numbers.push_back(component_at(all.at(i, j), component));
+  if (is_sparse) replace_sparse(at(accessor, "sparse"), component, read);
+  if (!std::ranges::all_of(read.numbers, [](double value) { return std::isfinite(value); }))
+    refuse("has a number that is none");
   return read;
+}
+
+void GltfBuffers::replace_sparse(const Tree& sparse, std::size_t component, GltfNumbers& read) const {
+  const Tree& indices = at(sparse, "indices");
+  const std::size_t count = number(at(sparse, "count"), 0), type = number(at(indices, "componentType"), 0);
+  const Run places = run(indices, count, type == kWholeNumbers ? kFloats : type, 1),
+            values = run(at(sparse, "values"), count, component, read.width);
+  bool fits = places.fits && values.fits && places.size > 0;
+  for (std::size_t i = 0; fits && i < count; ++i) {
+    std::size_t place = 0;
+    for (std::size_t byte = places.size; byte-- > 0;)
+      place = place << 8 | static_cast<unsigned char>(places.at(i, 0)[byte]);
+    fits = place < read.count();
+    for (std::size_t j = 0; fits && j < read.width; ++j)
+      read.numbers[place * read.width + j] = component_at(values.at(i, j), component);
+  }
+  if (!fits)
+    throw Failure("has an animation with a sparse accessor that reaches beyond its numbers", path_.string(),
+                  "export it again");
 }
 
 }  // namespace mars::importer

@@ -26,11 +26,15 @@ class GltfBuffers {
   GltfBuffers(const std::filesystem::path& path, std::string_view bytes, const Tree& gltf);
 
   // Accessor `index`: floats, or whole numbers that stand for -1 to 1 (glTF 2.0, 3.6.2.2). Refuses what is not within
-  // its buffer, and sparse accessors, in a failure that names the file and the accessor.
+  // its buffer, in a failure that names the file and the accessor. Sparse ones come with what replaces their numbers.
   GltfNumbers read(const Tree& index) const;
 
  private:
+  struct Run;  // of elements of one kind
+
   std::string_view buffer(const Tree& index) const;
+  Run run(const Tree& part, std::size_t count, std::size_t component, std::size_t width) const;
+  void replace_sparse(const Tree& sparse, std::size_t component, GltfNumbers& read) const;
 
   std::filesystem::path path_;
   const Tree& gltf_;

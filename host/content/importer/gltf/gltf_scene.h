@@ -27,6 +27,7 @@ struct GltfLight {
   GltfLightKind kind;
   glm::dvec3 color{1};                           // amounts of light
   double intensity = 1;                          // lux of directional lights, candela of others
+  bool in_the_middle = false;                    // of FBX and COLLADA: what makes a white surface there, instead
   double inner = 0, outer = 0.7853981633974483;  // radians from a spot's axis
 };
 

@@ -21,7 +21,7 @@ export class Importer {
     this.input = element("input", {type: "file", multiple: true, hidden: true, "aria-label": "Files to import", "data-key": "import.files",
                                    onchange: () => this.#chosen()});
     this.target = element("div", {class: "drop-target", hidden: true}, icon("import"), element("strong", {}, "Drop to import"),
-                          element("span", {}, "GLB, glTF, OBJ, PLY, STL, BVH, ASF and AMC, with their companions"));
+                          element("span", {}, "GLB, glTF, VRM, FBX, COLLADA, OBJ, PLY, STL, POV, RIB, BVH, ASF and AMC, with their companions"));
     document.body.append(this.input, this.target);
     this.#takeDrops();
     connection.on("import", (message) => this.#hear(message));

@@ -138,12 +138,15 @@ TEST(Subdivision, WeightsAreMeans) {
 constexpr std::array<std::array<std::size_t, 4>, 4> kSides = {
     {{0, 1, 2, 3}, {3, 7, 11, 15}, {15, 14, 13, 12}, {12, 8, 4, 0}}};
 
-// At a third of a side, between the side and the patch's inner point next to it.
-glm::dvec3 normal_at(const wire::Patch& patch, const std::array<std::size_t, 4>& side, std::size_t at) {
-  static constexpr std::size_t kInner[16] = {0, 5, 6, 0, 5, 0, 0, 6, 9, 0, 0, 10, 0, 9, 10, 0};
-  const glm::dvec3 place = vector(patch.points[side[at]]);
-  return glm::normalize(glm::cross(vector(patch.points[side[at + 1]]) - vector(patch.points[side[at - 1]]),
-                                   vector(patch.points[kInner[side[at]]]) - place));
+// In the middle of a side.
+glm::dvec3 normal_at(const wire::Patch& patch, const std::array<std::size_t, 4>& side) {
+  constexpr double kPart[] = {0.125, 0.375, 0.375, 0.125};
+  const int inward = side[0] == 0 ? 4 : side[0] == 3 ? -1 : side[0] == 15 ? -4 : 1;
+  const auto at = [&](std::size_t i) { return vector(patch.points[side[i]]); };
+  glm::dvec3 across(0);
+  for (std::size_t i = 0; i < 4; ++i)
+    across += kPart[i] * (vector(patch.points[static_cast<std::size_t>(static_cast<int>(side[i]) + inward)]) - at(i));
+  return glm::normalize(glm::cross(at(3) + at(2) - at(1) - at(0), across));
 }
 
 // Degrees between the normals of neighbours, at most.
@@ -156,7 +159,7 @@ double worst_edge(const Cage& cage, int level, const std::vector<glm::dvec3>& po
       for (const auto& a : kSides)
         for (const auto& b : kSides) {
           if (means.patches[one][a[1]] != means.patches[other][b[2]]) continue;
-          const double cosine = glm::dot(normal_at(patches[one], a, 1), normal_at(patches[other], b, 2));
+          const double cosine = glm::dot(normal_at(patches[one], a), normal_at(patches[other], b));
           most = std::max(most, glm::degrees(std::acos(std::min(1.0, cosine))));
         }
   return most;

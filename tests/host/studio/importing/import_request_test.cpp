@@ -62,6 +62,15 @@ TEST(ImportJobs, CompanionsHaveNone) {
   EXPECT_FALSE(jobs[0].moves);
 }
 
+TEST(ImportJobs, AreOfScenesAndPatchesToo) {
+  const auto jobs =
+      import_jobs(files({"man.FBX", "man.png", "house.dae", "pot.pov", "pot.inc", "ship.rib", "girl.vrm"}));
+  ASSERT_EQ(jobs.size(), 5u);
+  EXPECT_EQ(jobs[0].main, "man.FBX");
+  EXPECT_EQ(jobs[2].main, "pot.pov");
+  EXPECT_EQ(jobs[4].name, "girl");
+}
+
 TEST(ImportJobs, MotionsOfOneSkeletonFollowEachOther) {
   const auto jobs = import_jobs(files({"02_02.amc", "02.asf", "02_01.amc", "jump.bvh", "My rock!.OBJ"}));
   ASSERT_EQ(jobs.size(), 3u);
@@ -75,7 +84,7 @@ TEST(ImportJobs, MotionsOfOneSkeletonFollowEachOther) {
 
 TEST(ImportJobs, SayWhatCannotBeRead) {
   try {
-    import_jobs(files({"figure.fbx", "tex/skin.png"}));
+    import_jobs(files({"figure.blend", "tex/skin.png"}));
     FAIL();
   } catch (const Failure& failure) {
     EXPECT_NE(failure.remedy.find("Blender"), std::string::npos) << failure.what();

@@ -16,6 +16,6 @@ export function importPart({importer}) {
   const tall = line("Height", height), facing = line("Looks to", front.root);
   tall.title = "Units from the lowest point to the highest. A man of the library has 5.1";
   facing.title = "The file's axis along which a figure looks; here that is x";
-  return part("Import", element("p", {class: "hint"}, "GLB, glTF, OBJ, PLY, STL, BVH, AMC: drop them on the page, or choose them."), tall, facing,
+  return part("Import", element("p", {class: "hint"}, "GLB, glTF, FBX, COLLADA, OBJ, PLY, STL, POV, RIB, BVH, AMC: drop them on the page, or choose them."), tall, facing,
               element("div", {class: "actions"}, element("button", {"data-key": "import.choose", onclick: () => importer.choose()}, "Choose files")));
 }

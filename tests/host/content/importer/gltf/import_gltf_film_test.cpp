@@ -359,7 +359,7 @@ TEST_F(GltfFilms, DamagedAnimationsAreRefused) {
   Glb sparse = figure();
   sparse.channel(0, 4, "rotation", "LINEAR", {0}, sparse.floats("VEC4", {0, 0, 0, 1}));
   sparse.json["accessors"].back()["sparse"] = {{"count", 0}};
-  EXPECT_TRUE(holds(refused(sparse), "is sparse")) << refused(sparse);
+  EXPECT_TRUE(holds(refused(sparse), "has numbers beyond the end of their buffer")) << refused(sparse);
   Glb nan = figure();
   nan.channel(0, 4, "rotation", "LINEAR", {0}, nan.floats("VEC4", {0, 0, NAN, 1}));
   EXPECT_TRUE(holds(refused(nan), "a number that is none")) << refused(nan);
@@ -372,6 +372,56 @@ TEST_F(GltfFilms, OptionsOfFilmsNeedAFilm) {
   options.animation = "";
   options.rate = 24;
   EXPECT_TRUE(holds(failure_of([&] { import_model(options); }), "--rate (add --as film"));
+}
+
+// Places of a mesh and values of an animation, of which all but one are in the file as they are.
+TEST_F(GltfFilms, SparseNumbersAreReplaced) {
+  Glb glb;
+  const int mesh = glb.triangle({0, 0, 0, 1, 0, 0, 0, 0, 1});
+  const int places = static_cast<int>(glb.json["accessors"].size()) - 1;
+  glb.json["nodes"] = {{{"mesh", mesh}}};
+  glb.channel(0, 0, "translation", "LINEAR", {0, 1}, glb.floats("VEC3", {0, 0, 0, 9, 9, 9}));
+  const int values = static_cast<int>(glb.json["accessors"].size()) - 2;
+  const auto replace = [&](int accessor, char place, const std::vector<float>& with) {
+    const int view = glb.json["accessors"][std::size_t(glb.floats("VEC3", with))]["bufferView"];
+    glb.json["accessors"][std::size_t(accessor)]["sparse"] = {
+        {"count", 1},
+        {"indices", {{"bufferView", glb.view(std::string(1, place))}, {"componentType", 5121}}},
+        {"values", {{"bufferView", view}}}};
+  };
+  replace(places, 2, {0, 0, 5});
+  replace(values, 1, {3, 0, 0});
+  import(glb.file());
+  const film::CompiledFilm compiled = film::compile(film_);
+  const Places last = vertices_of(film_, compiled.view(), film_.frames - 1);
+  EXPECT_LT(farthest_from({{3, 0, 0}, {4, 0, 0}, {3, -5, 0}}, last), 1e-5);
+  glb.json["accessors"][std::size_t(values)]["sparse"]["indices"]["bufferView"] = glb.view("\7");
+  EXPECT_TRUE(holds(failure_of([&] { import(glb.file()); }), "reaches beyond its numbers"));
+}
+
+TEST_F(GltfFilms, MorphTargetsShapeTheMeshAtItsWeights) {
+  Glb glb;
+  const int mesh = glb.triangle({0, 0, 0, 1, 0, 0, 0, 0, 1});
+  auto& json = glb.json["meshes"][0];
+  json["primitives"][0]["targets"] = {{{"POSITION", glb.floats("VEC3", {0, 0, 0, 2, 0, 0, 0, 0, 0})}},
+                                      {{"POSITION", glb.floats("VEC3", {0, 0, 0, 0, 0, 0, 0, 4, 0})}}};
+  json["weights"] = {0.5, 0};
+  glb.json["nodes"] = {{{"mesh", mesh}}};
+  const std::string report = import(glb.file());
+  EXPECT_TRUE(holds(report, "the shape at the file's weights of 1 morph target")) << report;
+  const film::CompiledFilm compiled = film::compile(film_);
+  EXPECT_LT(farthest_from({{0, 0, 0}, {2, 0, 0}, {0, -1, 0}}, vertices_of(film_, compiled.view(), 0)), 1e-5);
+}
+
+TEST_F(GltfFilms, TimesAreSingleNumbers) {
+  Glb glb;
+  const int mesh = glb.triangle({0, 0, 0, 1, 0, 0, 0, 0, 1});
+  glb.json["nodes"] = {{{"mesh", mesh}}};
+  glb.json["scenes"] = {{{"nodes", {0}}}};
+  const int times = glb.floats("VEC2", {0, 1}), values = glb.floats("VEC3", {0, 0, 0, 1, 0, 0});
+  glb.json["animations"] = {{{"samplers", {{{"input", times}, {"output", values}}}},
+                             {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}}};
+  EXPECT_TRUE(holds(failure_of([&] { import(glb.file()); }), "whose times are no single numbers"));
 }
 
 }  // namespace

@@ -1,0 +1,45 @@
+// Bicubic Bezier patches of a scene of another program, as its readers give them.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mars::importer {
+
+using PatchColor = std::array<double, 3>;  // as shown, 0 to 1
+
+struct ScenePatch {
+  std::array<glm::dvec3, 16> points;  // along u first
+  std::optional<PatchColor> color;    // none: the file gives it none
+};
+
+struct PatchScene {
+  std::vector<ScenePatch> patches;
+  std::map<std::string, std::size_t> skipped;  // what else the file has: "sphere" twice, ...
+  bool is_left_handed = false;                 // x, y, z are right, up, and away from who looks
+};
+
+// A scene with more patches, or with deeper nesting, is refused.
+inline constexpr std::size_t kMostScenePatches = 2'000'000, kDeepestScene = 200;
+inline constexpr std::uintmax_t kLargestPatchScene = std::uintmax_t{1} << 28;
+
+void transform(std::vector<ScenePatch>& patches, const glm::dmat4& by);
+
+// bicubic_patch of POV-Ray, with numbers, vectors and objects that #declare names, and what moves and colours the
+// objects around it; other objects are skipped, as are macros, loops, conditions and files included from
+// elsewhere than its folder. Failures are at
+// FILE:LINE.
+PatchScene read_pov(const std::filesystem::path& path);
+
+// Patch and PatchMesh of RenderMan's RIB in text, bicubic in any basis or bilinear, with transformations and colours.
+// Failures are at FILE:LINE.
+PatchScene read_rib(const std::filesystem::path& path);
+
+}  // namespace mars::importer

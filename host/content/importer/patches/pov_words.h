@@ -1,0 +1,35 @@
+// The words of POV-Ray's scene description language.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mars::importer {
+
+enum class PovKind { word, directive, number, text, sign, end };
+
+struct PovWord {
+  PovKind kind = PovKind::end;
+  std::string text;  // of a directive without its #, of a text without its quotation marks
+  double number = 0;
+  std::size_t line = 1;
+  std::size_t file = 0;  // of PovText
+
+  bool is(PovKind what, std::string_view word) const { return kind == what && text == word; }
+};
+
+struct PovText {
+  std::vector<PovWord> words;  // without comments; the last is the end
+  std::vector<std::string> files;
+
+  std::string place_of(const PovWord& word) const { return files[word.file] + ":" + std::to_string(word.line); }
+};
+
+// All of a file. Of files that it includes, those that lie in its folder stand in the place of their names; the others
+// stay as words. Failures are at FILE:LINE.
+PovText pov_text(const std::filesystem::path& path);
+
+}  // namespace mars::importer
