@@ -202,7 +202,7 @@ ImportedText import_motion(const ImportOptions& options, FileKind kind, const st
     report.model = "model of " + document::counted(read.skeleton.joints.size(), "joint") + ", the first '" +
                    read.skeleton.joints[0].name + "'";
     std::string text = document::laid_out(model_of(read.skeleton, options.from.string(), report));
-    return {report, std::move(text)};
+    return {report, {{std::move(text)}}};
   }
   if (read.motion.poses.empty())
     throw Failure("has no motion, and a film shows one", options.from.string(), "import it --as model");
