@@ -10,6 +10,7 @@
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/film/compile.h"
+#include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/importer/import_folder.h"
@@ -50,11 +51,11 @@ class Scenes : public ImportFolder {
       std::vector<wire::Matrix> bones;
       for (const wire::Track& bone : compiled.view().bones_of(segment))
         bones.push_back(compiled.view().matrix_at(bone, frame));
-      for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-        modeler::VertexBones alone{{0}, {1}};
-        if (bones.empty()) bones.push_back(compiled.view().matrix_at(segment, frame));
-        places.push_back(modeler::skinned_place(mesh.vertices[v], mesh.bones.empty() ? alone : mesh.bones[v], bones));
-      }
+      if (bones.empty()) bones.push_back(compiled.view().matrix_at(segment, frame));
+      const modeler::BentSkin skin(bones, segment.blend);
+      const modeler::VertexBones alone{{0}, {1}};
+      for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+        places.push_back(skin.place_of(mesh.vertices[v], mesh.bones.empty() ? alone : mesh.bones[v]));
     }
     return places;
   }
