@@ -9,17 +9,23 @@ namespace {
 
 constexpr double kNothing = 1e-9;  // what weighs less leaves a mean
 
-// Leaves each point once, and what is left weighs 1.
-Mean summed(Mean terms) {
+// Leaves each point once.
+std::vector<Term> merged(std::vector<Term> terms) {
   std::ranges::stable_sort(terms, {}, &Term::point);
-  Mean sum;
-  double all = 0;
+  std::vector<Term> sum;
   for (const Term& term : terms) {
     if (sum.empty() || sum.back().point != term.point)
       sum.push_back(term);
     else
       sum.back().weight += term.weight;
   }
+  return sum;
+}
+
+// Leaves each point once, and what is left weighs 1.
+Mean summed(std::vector<Term> terms) {
+  Mean sum = merged(std::move(terms));
+  double all = 0;
   std::erase_if(sum, [](const Term& term) { return term.weight < kNothing; });
   for (const Term& term : sum) all += term.weight;
   for (Term& term : sum) term.weight /= all;
@@ -47,12 +53,14 @@ std::vector<std::uint32_t> first_of_same(const ControlNet& net) {
 
 }  // namespace
 
-Mean sum_of(std::span<const Share> shares) {
-  Mean terms;
+std::vector<Term> terms_of(std::span<const Share> shares) {
+  std::vector<Term> terms;
   for (const Share& share : shares)
     for (const Term& term : share.mean) terms.push_back({term.point, share.weight * term.weight});
-  return summed(std::move(terms));
+  return merged(std::move(terms));
 }
+
+Mean sum_of(std::span<const Share> shares) { return summed(terms_of(shares)); }
 
 std::vector<wire::Patch> patches_of(const MeanPatches& means, std::span<const glm::dvec3> points) {
   std::vector<glm::dvec3> places;

@@ -27,7 +27,9 @@ struct Share {
   double weight;
 };
 
-// The sum of means, each times its weight.
+// The sum of means, each times its weight: the terms, ascending by point, whatever their weights are; and the mean that
+// is left of them without those below 0.
+std::vector<Term> terms_of(std::span<const Share> shares);
 Mean sum_of(std::span<const Share> shares);
 
 // Patches whose points are numbers of means; neighbours have the same.

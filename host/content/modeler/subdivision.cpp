@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <unordered_map>
 #include <utility>
 
@@ -140,6 +142,18 @@ class Step {
   const Topology topology_;
 };
 
+// How much, 1 at most, of each of `ways` may be added to the mean that it stays one.
+double farthest_of_means(const Mean& from, std::span<const std::vector<Term>> ways) {
+  double far = 1;
+  for (const std::vector<Term>& way : ways)
+    for (const Term& term : way) {
+      if (term.weight >= 0) continue;
+      const auto own = std::ranges::find(from, term.point, &Term::point);
+      far = std::min(far, own == from.end() ? 0 : own->weight / -term.weight);
+    }
+  return far;
+}
+
 // Bezier points of quads: of each point one, of each edge two, of each face four.
 class QuadPatches {
  public:
@@ -148,9 +162,14 @@ class QuadPatches {
   MeanPatches made() {
     for (std::uint32_t face = 0; face < topology_.faces().size(); ++face)
       for (std::size_t corner = 0; corner < 4; ++corner) inner_.push_back(inner_point(face, corner));
-    for (std::uint32_t point = 0; point < topology_.points(); ++point) net_.means.push_back(corner_point(point));
     for (const Edge& edge : topology_.edges())
-      for (const std::uint32_t end : edge.ends) net_.means.push_back(edge_point(edge, end));
+      for (const std::uint32_t end : edge.ends) on_edges_.push_back(edge_point(edge, end));
+    for (std::uint32_t point = 0; point < topology_.points(); ++point) {
+      net_.means.push_back(corner_point(point));
+      if (topology_.around(point).border.empty() && topology_.around(point).edges.size() != 4)
+        flatten(point, net_.means.back());
+    }
+    net_.means.insert(net_.means.end(), on_edges_.begin(), on_edges_.end());
     net_.means.insert(net_.means.end(), inner_.begin(), inner_.end());
     for (std::uint32_t face = 0; face < topology_.faces().size(); ++face) net_.patches.push_back(patch_of(face));
     return std::move(net_);
@@ -196,6 +215,53 @@ class QuadPatches {
     return sum_of(shares);
   }
 
+  // Where other than four edges meet, the points on these lie in no plane with the corner, and patches would meet at an
+  // angle. The first harmonic of how they lie about the corner does lie in one; it is taken as far as points stay
+  // means. The inner points go along.
+  void flatten(std::uint32_t point, const Mean& corner) {
+    const std::vector<Spoke> spokes = spokes_of(point);
+    const std::size_t count = spokes.size();
+    std::vector<Mean> before;
+    std::vector<std::vector<Term>> ways;
+    for (const Spoke& spoke : spokes) before.push_back(on_edges_[spoke.on_edge]);
+    for (std::size_t k = 0; k < count; ++k) {
+      std::vector<Share> shares;
+      for (std::size_t j = 0; j < count; ++j)
+        shares.push_back(
+            {before[j], 2 * std::cos(2 * std::numbers::pi * double(j + count - k) / double(count)) / double(count)});
+      ways.push_back(terms_of(shares));
+    }
+    const double far = farthest_of_means(corner, ways);
+    for (std::size_t k = 0; k < count; ++k)
+      on_edges_[spokes[k].on_edge] = sum_of(std::array{Share{corner, 1}, Share{ways[k], far}});
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t next = (k + 1) % count;
+      Mean& inner = inner_[spokes[k].inner];
+      inner = sum_of(std::array{Share{inner, 1}, Share{on_edges_[spokes[k].on_edge], 0.5}, Share{before[k], -0.5},
+                                Share{on_edges_[spokes[next].on_edge], 0.5}, Share{before[next], -0.5}});
+    }
+  }
+
+  // An edge from a point, and the face that follows it counter-clockwise: numbers in on_edges_ and inner_.
+  struct Spoke {
+    std::uint32_t on_edge, inner;
+  };
+
+  std::vector<Spoke> spokes_of(std::uint32_t point) const {
+    std::vector<Spoke> spokes;
+    std::uint32_t face = topology_.around(point).faces[0];
+    do {
+      const std::uint32_t inner = inner_number(face, point);
+      const auto& corners = topology_.faces()[face];
+      const std::uint32_t edge = topology_.edge_between(point, corners[(inner + 1) % 4]),
+                          last = topology_.edge_between(point, corners[(inner + 3) % 4]);
+      spokes.push_back({2 * edge + (topology_.edges()[edge].ends[0] == point ? 0 : 1), inner});
+      const auto& sides = topology_.edges()[last].faces;
+      face = sides[0] == face ? sides[1] : sides[0];
+    } while (face != topology_.around(point).faces[0]);
+    return spokes;
+  }
+
   // u runs from corner 0 to corner 1, v from corner 0 to corner 3.
   wire::NetPatch patch_of(std::uint32_t face) const {
     static constexpr std::size_t kCorner[] = {0, 3, 15, 12}, kInner[] = {5, 6, 10, 9};
@@ -217,7 +283,8 @@ class QuadPatches {
 
   const Refined& from_;
   const Topology topology_;
-  std::vector<Mean> inner_;
+  std::vector<Mean> inner_;     // of each face four
+  std::vector<Mean> on_edges_;  // of each edge two, by its ends
   MeanPatches net_;
 };
 
