@@ -26,13 +26,16 @@ const Frames kAll{0, 1, 2, 3}, kNone{};
 // A further member of a struct below fails to compile here: compare it in changed_frames(), and change it below.
 [[maybe_unused]] void name_members(const FilmData& film) {
   [[maybe_unused]] const auto& [a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15, a16, a17, a18, a19,
-                                a20, a21] = film;
+                                a20, a21, a22, a23, a24] = film;
   [[maybe_unused]] const auto& [b1, b2, b3, b4, b5, b6, b7, b8, b9, b10, b11, b12, b13, b14] = film.settings;
   [[maybe_unused]] const auto& [q1, q2, q3, q4] = film.settings.window;
   [[maybe_unused]] const auto& [c1, c2, c3, c4, c5, c6] = film.shapes[0];
   [[maybe_unused]] const auto& [d1, d2, d3, d4, d5, d6, d7] = film.meshlets[0];
   [[maybe_unused]] const auto& [r1, r2, r3] = film.meshlets[0].skin;
-  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7] = film.segments[0];
+  [[maybe_unused]] const auto& [s1, s2] = film.net_points[0];
+  [[maybe_unused]] const auto& [t1, t2] = film.stencil_terms[0];
+  [[maybe_unused]] const auto& [u1, u2] = film.stencils[0];
+  [[maybe_unused]] const auto& [e1, e2, e3, e4, e5, e6, e7, e8] = film.segments[0];
   [[maybe_unused]] const auto& [f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11, f12, f13] = film.materials[0];
   [[maybe_unused]] const auto& [g1, g2, g3, g4, g5, g6, g7, g8] = film.cameras[0];
   [[maybe_unused]] const auto& [h1, h2, h3, h4, h5, h6, h7, h8, h9] = film.lights[0];
