@@ -1,5 +1,6 @@
 #include "host/content/modeler/bent_skin.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mars::modeler {
@@ -46,6 +47,15 @@ std::vector<glm::dvec3> BentSkin::means_of(const ControlNet& net) const { return
 
 std::vector<wire::Patch> BentSkin::patches_of(const ControlNet& net) const {
   return modeler::patches_of(net, moved(net));
+}
+
+std::uint32_t heaviest_bone(const VertexBones& point) {
+  return point.bone[static_cast<std::size_t>(std::ranges::max_element(point.weight) - point.weight.begin())];
+}
+
+const VertexBones& followed_by(const ControlNet& net, std::uint32_t stencil) {
+  const auto terms = net.terms_of(net.stencils[stencil]);
+  return net.bones[std::ranges::max_element(terms, {}, &wire::StencilTerm::weight)->point];
 }
 
 glm::dvec3 placed(const wire::Matrix& matrix, const Mesh::Place& at) {

@@ -33,6 +33,11 @@ class BentSkin {
   std::vector<shape::DualBone<double>> duals_;  // none where the blend is linear
 };
 
+// What a point follows most.
+std::uint32_t heaviest_bone(const VertexBones& point);
+// What the mean of a stencil follows: what the point of it does that weighs most.
+const VertexBones& followed_by(const ControlNet& net, std::uint32_t stencil);
+
 // Where the matrix takes a point.
 glm::dvec3 placed(const wire::Matrix& matrix, const Mesh::Place& at);
 

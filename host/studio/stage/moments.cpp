@@ -130,6 +130,13 @@ std::vector<wire::Patch> Moments::bent_patches(std::size_t segment) const {
   return bones_of(segment).patches_of(*shape.net);
 }
 
+std::uint32_t Moments::bone_at(std::size_t segment, std::size_t patch, std::size_t point) const {
+  const auto [actor, joint] = owners_[segment];
+  const modeler::Model& model = project_.film().model_of(actor);
+  const modeler::ControlNet& net = *model.shapes[model.joints[joint].segment->shape].net;
+  return modeler::heaviest_bone(modeler::followed_by(net, net.patches[patch][point]));
+}
+
 const wire::Shape& Moments::shape_of(std::size_t segment) const {
   const std::size_t number = now_->segments[segment].shape, of_film = shapes_.parts.shapes.size();
   return number >= of_film ? now_->shapes[number - of_film] : shapes_.parts.shapes[number];

@@ -59,6 +59,8 @@ class Moments {
   std::vector<std::array<float, 3>> bent_places(std::size_t segment, const wire::Meshlet& meshlet) const;
   // The same of its patches.
   std::vector<wire::Patch> bent_patches(std::size_t segment) const;
+  // What a point of its patch follows most: a number in the list of the segment's bones.
+  std::uint32_t bone_at(std::size_t segment, std::size_t patch, std::size_t point) const;
   // The patches of a segment's shape, wherever they are.
   std::span<const wire::Patch> patches_of(std::size_t segment) const;
   // What moves or is a model; else figures; else everything. Of a film that is not shown the ball of one unit.

@@ -88,7 +88,9 @@ class NearestHit {
   // A segment with a skin; the ray is in the world.
   void look_at_skin(std::size_t segment, const Ray& ray) {
     segment_ = segment;
-    for (const wire::Patch& patch : moments_.bent_patches(segment)) look(patch, ray);
+    const std::vector<wire::Patch> patches = moments_.bent_patches(segment);
+    for (std::size_t patch = 0; patch < patches.size(); ++patch)
+      if (look(patches[patch], ray)) bone_ = moments_.bone_at(segment, patch, nearest_point(patches[patch], ray));
     const std::uint32_t number = moments_.now().segments[segment].shape;
     if (number >= shapes_.shapes.size()) return;
     const wire::Shape& shape = shapes_.shapes[number];
@@ -97,25 +99,49 @@ class NearestHit {
       const std::vector<Point> places = moments_.bent_places(segment, meshlet);
       Bounds box;
       for (const Point& place : places) box.add(place);
-      if (const auto from = entry(ray, box); from && *from < part_) look(meshlet, places.data(), ray);
+      if (const auto from = entry(ray, box); !from || *from >= part_) continue;
+      if (const auto vertex = look(meshlet, places.data(), ray)) bone_ = heaviest_bone(meshlet, *vertex);
     }
   }
 
   double part() const { return part_; }
   std::optional<std::size_t> segment() const { return nearest_; }
+  std::optional<std::uint32_t> bone() const { return bone_; }
 
  private:
-  void look(const wire::Patch& patch, const Ray& ray) {
+  // Whether it is nearer than what was looked at before.
+  bool look(const wire::Patch& patch, const Ray& ray) {
     Bounds box;
     for (const Point& point : patch.points) box.add(point);
     const auto from = entry(ray, box);
-    if (!from || *from >= part_) return;
+    if (!from || *from >= part_) return false;
+    const double before = part_;
     diced_.points.clear();
     diced_.corners.clear();
     add_diced(patch, kPatchSteps, diced_);
     for (std::size_t i = 0; i < diced_.corners.size(); i += 3)
       take(distance_to_triangle(ray, diced_.points[diced_.corners[i]], diced_.points[diced_.corners[i + 1]],
                                 diced_.points[diced_.corners[i + 2]]));
+    return part_ < before;
+  }
+
+  // Of the patch's points that which is nearest to where the ray meets it.
+  std::size_t nearest_point(const wire::Patch& patch, const Ray& ray) const {
+    const glm::dvec3 at = ray.from + part_ * ray.way;
+    const auto nearest = std::ranges::min_element(patch.points, {},
+                                                  [&](const Point& point) { return glm::distance(vector(point), at); });
+    return static_cast<std::size_t>(nearest - patch.points.begin());
+  }
+
+  std::uint32_t heaviest_bone(const wire::Meshlet& meshlet, std::uint32_t vertex) const {
+    const wire::Skin& skin = meshlet.skin;
+    std::uint32_t heaviest = 0;
+    const auto weight = [&](std::uint32_t bone) {
+      return shapes_.skin_weights[skin.first_weight + bone * meshlet.vertex_count + vertex];
+    };
+    for (std::uint32_t bone = 1; bone < skin.bone_count; ++bone)
+      if (weight(bone) > weight(heaviest)) heaviest = bone;
+    return shapes_.skin_bones[skin.first_bone + heaviest];
   }
 
   void look(const wire::Meshlet& meshlet, const Ray& ray) {
@@ -127,17 +153,23 @@ class NearestHit {
     look(meshlet, &shapes_.mesh_places[meshlet.first_vertex], ray);
   }
 
-  void look(const wire::Meshlet& meshlet, const Point* points, const Ray& ray) {
+  // A corner of the triangle that is nearer than what was looked at before, if one is.
+  std::optional<std::uint32_t> look(const wire::Meshlet& meshlet, const Point* points, const Ray& ray) {
+    std::optional<std::uint32_t> corner;
     for (std::uint32_t i = 0; i < meshlet.triangle_count; ++i) {
       const wire::MeshTriangle& triangle = shapes_.mesh_triangles[meshlet.first_triangle + i];
-      take(distance_to_triangle(ray, points[triangle[0]], points[triangle[1]], points[triangle[2]]));
+      if (take(distance_to_triangle(ray, points[triangle[0]], points[triangle[1]], points[triangle[2]])))
+        corner = triangle[0];
     }
+    return corner;
   }
 
-  void take(const std::optional<double>& part) {
-    if (!part || *part >= part_) return;
+  bool take(const std::optional<double>& part) {
+    if (!part || *part >= part_) return false;
     part_ = *part;
     nearest_ = segment_;
+    bone_.reset();
+    return true;
   }
 
   const Moments& moments_;
@@ -146,6 +178,7 @@ class NearestHit {
   std::size_t segment_ = 0;
   double part_ = std::numeric_limits<double>::max();
   std::optional<std::size_t> nearest_;
+  std::optional<std::uint32_t> bone_;
 };
 
 }  // namespace
@@ -194,7 +227,7 @@ std::optional<Hit> first_hit(const Moments& moments, const Ray& ray,
     if (from && *from < nearest.part()) nearest.look(segment, *ray_in_cube);
   }
   if (!nearest.segment()) return std::nullopt;
-  return Hit{*nearest.segment(), ray.from + nearest.part() * ray.way};
+  return Hit{*nearest.segment(), ray.from + nearest.part() * ray.way, nearest.bone()};
 }
 
 }  // namespace mars::studio

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -29,6 +30,7 @@ void add_diced(const wire::Patch& patch, int steps, Triangles& triangles);
 struct Hit {
   std::size_t segment;
   glm::dvec3 place;
+  std::optional<std::uint32_t> bone{};  // of a skin, what the place follows most: its number in the segment's list
 };
 
 // The nearest surface on the ray, of segments that count.

@@ -76,8 +76,11 @@ std::string text_of(const Project& project, const Selection& selection) {
 Picked pick(const Project& project, const Moments& moments, const Screen& screen, const glm::dvec2& pixel) {
   const auto& owners = moments.owners();
   const auto counts = [&](std::size_t segment) { return !project.is_model() || owners[segment].actor == 0; };
-  if (const auto hit = first_hit(moments, screen.ray_through(pixel), counts))
-    return {{owners[hit->segment].actor, owners[hit->segment].joint}, hit};
+  if (const auto hit = first_hit(moments, screen.ray_through(pixel), counts)) {
+    const auto [actor, joint] = owners[hit->segment];
+    const auto& segment = *project.film().model_of(actor).joints[joint].segment;
+    return {{actor, hit->bone ? segment.bones[*hit->bone].joint : joint}, hit};
+  }
   return {nearest_joint(project, screen, pixel), std::nullopt};
 }
 

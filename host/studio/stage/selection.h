@@ -33,7 +33,8 @@ struct Picked {
   std::optional<Hit> hit;
 };
 
-// The visible surface under the pixel; else the joint that is nearest on the screen. Of a model, what is its own.
+// The visible surface under the pixel, of a skin the joint that the place follows most; else the joint that is nearest
+// on the screen. Of a model, what is its own.
 Picked pick(const Project& project, const Moments& moments, const Screen& screen, const glm::dvec2& pixel);
 
 }  // namespace mars::studio

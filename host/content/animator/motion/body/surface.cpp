@@ -40,23 +40,13 @@ void add_rigid(const modeler::Model& model, const Posture& posture, std::size_t 
     for (const modeler::Mesh::Place& vertex : shape.mesh->vertices) add({vertex[0], vertex[1], vertex[2]});
 }
 
-std::size_t heaviest_bone(const modeler::VertexBones& bones) {
-  const auto heaviest = std::ranges::max_element(bones.weight);
-  return bones.bone[static_cast<std::size_t>(heaviest - std::begin(bones.weight))];
-}
-
-// Of what the patch's first point is a mean of, the point that weighs most.
-const modeler::VertexBones& followed_by(const modeler::ControlNet& net, const wire::NetPatch& patch) {
-  const auto terms = net.terms_of(net.stencils[patch[0]]);
-  return net.bones[std::ranges::max_element(terms, {}, &wire::StencilTerm::weight)->point];
-}
-
 // Of patches that follow a bone that counts.
 void add_bent_patches(const modeler::ControlNet& net, const modeler::BentSkin& skin, const std::vector<bool>& counted,
                       std::vector<glm::dvec3>& points) {
   const std::vector<wire::Patch> bent = skin.patches_of(net);
   for (std::size_t number = 0; number < bent.size(); ++number)
-    for (int i = 0; i < kGrid && counted[heaviest_bone(followed_by(net, net.patches[number]))]; ++i)
+    for (int i = 0; i < kGrid && counted[modeler::heaviest_bone(modeler::followed_by(net, net.patches[number][0]))];
+         ++i)
       for (int j = 0; j < kGrid; ++j)
         points.push_back(patch_point(bent[number], double(i) / (kGrid - 1), double(j) / (kGrid - 1)));
 }
@@ -74,7 +64,7 @@ void add_skin(const modeler::Model& model, const Posture& posture, const modeler
   if (shape.net) return add_bent_patches(*shape.net, skin, counted, points);
   const modeler::Mesh& mesh = *shape.mesh;
   for (std::size_t vertex = 0; vertex < mesh.vertices.size(); ++vertex)
-    if (counted[heaviest_bone(mesh.bones[vertex])])
+    if (counted[modeler::heaviest_bone(mesh.bones[vertex])])
       points.push_back(skin.place_of(mesh.vertices[vertex], mesh.bones[vertex]));
 }
 
