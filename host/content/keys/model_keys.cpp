@@ -345,7 +345,7 @@ Object skin() {
       "skin",
       "The joints that the points of a shape follow.",
       {{.name = "joints",
-        .type = "[text]",
+        .type = "[name]",
         .meaning = "names of joints in the model's order, parents before children",
         .range = {1, 65536},
         .required = true},

@@ -17,8 +17,7 @@ namespace mars::forecast {
 namespace {
 
 constexpr double kWithin = 0.15;
-constexpr double kMemoryWithin =
-    0.35;  // of a node's small part of a picture, which figures of small patches fill evenly
+constexpr double kMemoryWithin = 0.35;  // of a sixteenth of a picture, which figures of small patches fill evenly
 
 void expect_near(double forecast, double measured, double within, const std::string& what) {
   EXPECT_NEAR(forecast, measured, within * measured) << what;

@@ -45,10 +45,13 @@ double extent(const Body& body, std::size_t number, const glm::dvec3& direction)
   return most;
 }
 
-// Of the hips over the seat: what is between them, of the pelvis and of the thighs as they lie.
+// Of the hips over the seat: what is between them, of the pelvis and of the thighs as they lie. Of a skin it is the
+// thighs: what follows the pelvis hangs lower between the legs, and goes up with these.
 double cushion(const Body& body, double hips_below_pelvis) {
-  return std::max(extent(body, body.pelvis, {0, 0, -1}) - hips_below_pelvis,
-                  extent(body, body.legs[0].hip, {-1, 0, 0}));
+  const auto& pelvis = body.model->joints[body.pelvis].segment;
+  const double thighs = extent(body, body.legs[0].hip, {-1, 0, 0});
+  if (thighs > 0 && !(pelvis && pelvis->bones.empty())) return thighs;
+  return std::max(extent(body, body.pelvis, {0, 0, -1}) - hips_below_pelvis, thighs);
 }
 
 class Chair {

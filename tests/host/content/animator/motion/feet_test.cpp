@@ -11,6 +11,7 @@
 #include "host/content/animator/motion/body/body.h"
 #include "host/content/animator/keys/reduce.h"
 #include "host/content/film/compile.h"
+#include "host/content/modeler/bent_skin.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/modeler/surface.h"
 
@@ -27,23 +28,43 @@ constexpr std::string_view kSoles[] = {"foot", "toes", "sole", "hoof", "paw"};
 
 using Points = std::vector<glm::dvec3>;
 
+// A film, compiled, and the model of anna in it.
+struct FilmOfAnna {
+  explicit FilmOfAnna(const animator::Film& film) : compiled(film::compile(film)), model(film.model_of(0)) {}
+
+  film::CompiledFilm compiled;
+  modeler::Model model;
+};
+
+// Of a segment that is rigid, or whose bones bend it, in the world.
+std::vector<wire::Patch> patches_at(const FilmOfAnna& film, const wire::Segment& segment, const std::string& joint,
+                                    std::uint32_t frame) {
+  const wire::PackedFilm view = film.compiled.view();
+  const auto named = std::ranges::find(film.model.joints, joint, &modeler::Joint::name);
+  const modeler::Shape& shape = film.model.shapes[named->segment->shape];
+  std::vector<wire::Matrix> bones;
+  for (const wire::Track& bone : view.bones_of(segment)) bones.push_back(view.matrix_at(bone, frame));
+  if (!bones.empty()) return modeler::BentSkin(bones, segment.blend).patches_of(*shape.net);
+  std::vector<wire::Patch> patches = shape.patches;
+  for (wire::Patch& patch : patches)
+    for (auto& point : patch.points) {
+      const glm::dvec3 place = modeler::placed(view.matrix_at(segment, frame), point);
+      point = {float(place.x), float(place.y), float(place.z)};
+    }
+  return patches;
+}
+
 // All over the parts whose names begin with "anna/left" and end so.
-Points sole(const film::CompiledFilm& film, const std::string& side, std::uint32_t frame) {
+Points sole(const FilmOfAnna& film, const std::string& side, std::uint32_t frame) {
   Points points;
-  for (const wire::Segment& segment : film.view().segments()) {
-    const std::string name(film.view().name(segment));
+  for (const wire::Segment& segment : film.compiled.view().segments()) {
+    const std::string name(film.compiled.view().name(segment));
     if (!name.starts_with("anna/" + side) ||
         !std::ranges::any_of(kSoles, [&](std::string_view end) { return name.ends_with(end); }))
       continue;
-    const auto& m = film.view().matrix_at(segment, frame).m;
-    const wire::Shape& shape = film.view().shapes()[segment.shape];
-    for (const wire::Patch& patch : film.view().patches().subspan(shape.first_patch, shape.patch_count))
+    for (const wire::Patch& patch : patches_at(film, segment, name.substr(std::string_view("anna/").size()), frame))
       for (const double u : {0.0, 0.5, 1.0})
-        for (const double v : {0.0, 0.5, 1.0}) {
-          const glm::dvec3 p = modeler::point_of(patch, u, v);
-          const auto at = [&](std::size_t r) { return m[r][0] * p.x + m[r][1] * p.y + m[r][2] * p.z + m[r][3]; };
-          points.emplace_back(at(0), at(1), at(2));
-        }
+        for (const double v : {0.0, 0.5, 1.0}) points.push_back(modeler::point_of(patch, u, v));
   }
   return points;
 }
@@ -63,7 +84,7 @@ glm::dvec3 middle(const Points& points) {
 class Feet {
  public:
   Feet(const document::Json& film, const Performed& performed, double leg)
-      : film_(film::compile(read(film))),
+      : film_(read(film)),
         performed_(performed),
         leg_(leg),
         floor_(std::min(lowest(sole(film_, "left", 0)), lowest(sole(film_, "right", 0)))) {}
@@ -122,7 +143,7 @@ class Feet {
     ++held_;
   }
 
-  film::CompiledFilm film_;
+  FilmOfAnna film_;
   Performed performed_;
   double leg_, floor_;
   std::map<std::string, std::vector<std::optional<glm::dvec3>>> landed_;
