@@ -14,7 +14,7 @@ struct Lines {
   std::vector<float> points;        // x, y, z of each
   std::vector<std::uint32_t> ends;  // two points a line
   std::uint32_t dots = 0;           // the first `dots` points are marked: joints, control vertices
-  // Of a skin: the first points are means of `net`, of these numbers; what the others follow.
+  // Of a skin: the first points are means of `net`, by number; what the others follow.
   modeler::ControlNet net{};
   std::vector<std::uint32_t> means{};
   std::vector<modeler::VertexBones> bones{};

@@ -159,7 +159,7 @@ void expect_swept(wire::Blend blend) {
     }
   }
   EXPECT_GT(seen, 1000u);
-  // Boxes of dual quaternions are wider, by arcs of these long pieces (dual_skins_test.cpp measures them).
+  // Boxes of dual quaternions are wider, by the arcs of long pieces (dual_skins_test.cpp measures them).
   if (blend == wire::Blend::linear) EXPECT_GT(std::count(covered.begin(), covered.end(), 0), 200 * 150 / 4);
 }
 

@@ -102,7 +102,7 @@ std::vector<Mean> means_along(const SplineDirection& direction, std::size_t poin
   return Spline<Mean>(direction, each).bezier_points();
 }
 
-// Of rows, and in each of these of columns.
+// Of rows, and in each row of columns.
 Mean product(const Mean& rows, const Mean& columns, std::size_t width) {
   Mean all;
   for (const Term& row : rows)

@@ -16,8 +16,13 @@ namespace {
 using wire::Work;
 
 // Of a shared inbetween: the largest part over the mean, by lines, and by bands of a file that are no more than nodes;
-// the most memory of a node over that of its part; points of a patch's box.
-constexpr double kSharedUnevenly = 1.1, kBandsUnevenly = 1.6, kMemoryUnevenly = 1.3, kBoxPoints = 16;
+// the most memory of a node over that of its part, of kFewPatches or fewer; points of a patch's box.
+constexpr double kSharedUnevenly = 1.1, kBandsUnevenly = 1.6, kMemoryUnevenly = 1.3, kFewPatches = 650, kBoxPoints = 16;
+
+// Many patches lie more evenly: what is uneven falls as the root of their number.
+double memory_unevenly(double patches) {
+  return 1 + (kMemoryUnevenly - 1) * std::sqrt(kFewPatches / std::max(kFewPatches, patches));
+}
 
 // Each of the nodes does the mean of what all do.
 template <typename Nodes, typename Of>
@@ -141,7 +146,7 @@ NodePart FrameCosts::inbetween(const FrameTotals& whole, const FrameTotals& whol
   if (is_shared) part.team_bytes = whole.changed / sharers * line_bytes() * setting_.platform.file_part;
   if (totals.blocks.empty())
     part.strips.pasting += costs_.of(Work::host_restored, totals.drawn.moving.block_pixels * pixel_bytes());
-  const double unevenly = is_shared ? kMemoryUnevenly : 1;
+  const double unevenly = is_shared ? memory_unevenly(made[Work::patch] + made[Work::meshlet]) : 1;
   part.memory = std::min(arena_bytes(), made_bytes(made) * unevenly);
   part.made_memory = std::min(arena_bytes(), fresh_bytes(made) * unevenly);
   return part;

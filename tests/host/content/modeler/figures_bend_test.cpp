@@ -55,7 +55,7 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
   return std::acos(std::clamp(glm::dot(glm::normalize(a), glm::normalize(b)), -1.0, 1.0)) / kDegree;
 }
 
-// What a surface is at rest: which sides join, and which of these must be smooth.
+// What a surface is at rest: which sides join, and which joins must be smooth.
 class Surface {
  public:
   explicit Surface(const std::vector<wire::Patch>& patches) {

@@ -17,7 +17,6 @@ namespace mars::forecast {
 namespace {
 
 constexpr double kWithin = 0.15;
-constexpr double kMemoryWithin = 0.35;  // of a sixteenth of a picture, which figures of small patches fill evenly
 
 void expect_near(double forecast, double measured, double within, const std::string& what) {
   EXPECT_NEAR(forecast, measured, within * measured) << what;
@@ -60,8 +59,7 @@ TEST_P(Forecasts, AreAsSimulated) {
     expect_near(forecast.bytes_to_host, sum_of(report, &wire::WorkCounts::bytes_to_host), kWithin, "to host" + where);
     expect_near(forecast.bytes_to_nodes, sum_of(report, &wire::WorkCounts::bytes_to_nodes), kWithin,
                 "to nodes" + where);
-    expect_near(forecast.node_memory, most_of(report, &wire::WorkCounts::memory), nodes < 16 ? kWithin : kMemoryWithin,
-                "memory" + where);
+    expect_near(forecast.node_memory, most_of(report, &wire::WorkCounts::memory), kWithin, "memory" + where);
     EXPECT_EQ(forecast.frames.size(), report.frames.size());
     if (nodes == 1) expect_counted(film, report);
   }
