@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <filesystem>
@@ -126,6 +127,8 @@ class ImportingTest : public testing::Test {
 
   const fs::path folder_ = fs::temp_directory_path() / ("mars-importing-" + std::to_string(getpid()));
   boost::asio::io_context context_;
+  // Without it, a context that waits for another thread's work alone would stop for good.
+  const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> kept_{context_.get_executor()};
   FilmProject project_;
   std::vector<Json> messages_;
   Json step_;

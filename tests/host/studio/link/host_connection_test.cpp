@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <filesystem>
@@ -42,6 +43,8 @@ class HostConnectionTest : public testing::Test {
   }
 
   boost::asio::io_context context_;
+  // Without it, a context that waits for another thread's work alone would stop for good.
+  const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> kept_{context_.get_executor()};
   int connected_ = 0, begun_ = 0, drawn_ = 0;
   std::vector<pictures::Picture> pictures_;
   std::vector<std::uint32_t> dropped_;

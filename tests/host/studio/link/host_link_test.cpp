@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <filesystem>
@@ -148,6 +149,8 @@ class Studio {
   }
 
   boost::asio::io_context context_;
+  // Without it, a context that waits for another thread's work alone would stop for good.
+  const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> kept_{context_.get_executor()};
   std::uint32_t nodes_ = 0;
   std::size_t pictures_ = 0;
   std::vector<std::uint32_t> dropped_;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <filesystem>
@@ -86,6 +87,8 @@ class RenderingTest : public testing::Test {
   }
 
   boost::asio::io_context context_;
+  // Without it, a context that waits for another thread's work alone would stop for good.
+  const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> kept_{context_.get_executor()};
   const fs::path folder_ = fs::temp_directory_path() / ("mars-rendering-" + std::to_string(getpid()));
   std::vector<Json> messages_;
   Page page_;
