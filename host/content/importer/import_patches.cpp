@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/fields.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/joint_names.h"
 #include "host/content/importer/mesh_builder.h"
@@ -37,6 +38,16 @@ void place(PatchScene& scene, const glm::dmat3& upright) {
   for (ScenePatch& patch : scene.patches)
     for (std::size_t u = 0; u < 4; ++u)
       for (std::size_t v = u + 1; v < 4; ++v) std::swap(patch.points[4 * v + u], patch.points[4 * u + v]);
+}
+
+// What a file computes may be infinite, or no number at all.
+void check_places(const PatchScene& scene, const std::string& file) {
+  for (const ScenePatch& patch : scene.patches)
+    for (const glm::dvec3& point : patch.points)
+      for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(point[axis]) <= document::kFarthest))
+          throw Failure("has a patch with a point at " + document::shown(point[axis]), file,
+                        "keep points within 1e9 of the origin, with a smaller --scale if need be");
 }
 
 modeler::Box box_of(const PatchScene& scene) {
@@ -106,9 +117,11 @@ ImportedText import_patches(const ImportOptions& options, FileKind kind, const S
     throw Failure("has no bicubic patches", options.from.string(),
                   "only these can be read: export others as glTF or OBJ from the program that made it");
   place(scene, stance.upright);
+  check_places(scene, options.from.string());
   const modeler::Box in_file = box_of(scene);
   const double factor = options.size.factor(in_file.max.z - in_file.min.z, options.from.string());
   transform(scene.patches, glm::dmat4(glm::dmat3(factor)));
+  check_places(scene, options.from.string());
   const modeler::Box box = box_of(scene), bounds = modeler::thickened(box);
   const std::vector<OneColor> colors = by_color(scene, bounds);
   ImportReport report{colors.size() == 1
