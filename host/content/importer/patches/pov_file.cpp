@@ -186,12 +186,21 @@ class PovReader {
   }
 
   glm::dmat4 declared_transform() {
-    if (!in_.take_sign("{")) {
-      const auto known = transforms_.find(in_.peek().text);
-      if (known == transforms_.end()) in_.refuse("has a transform that is not declared", "write its parts");
-      in_.take();
-      return known->second;
-    }
+    if (++depth_ > kDeepestScene) in_.refuse("has transforms within transforms, too deep", "join them");
+    const glm::dmat4 all = in_.take_sign("{") ? parts_of_transform() : transform_of_name();
+    --depth_;
+    return all;
+  }
+
+  glm::dmat4 transform_of_name() {
+    const auto known = transforms_.find(in_.peek().text);
+    if (known == transforms_.end()) in_.refuse("has a transform that is not declared", "write its parts");
+    in_.take();
+    return known->second;
+  }
+
+  // Up to its closing brace.
+  glm::dmat4 parts_of_transform() {
     glm::dmat4 all(1);
     while (!in_.take_sign("}")) {
       if (const auto known = transforms_.find(in_.peek().text); known != transforms_.end()) {

@@ -135,6 +135,9 @@ TEST_F(Patches, DamagedFilesAreFailuresWithTheirLine) {
   EXPECT_TRUE(holds(failure("c.pov", "sphere { 0, 1 }"), "has no bicubic patches"));
   EXPECT_TRUE(holds(failure("d.pov", "/* never\n"), "d.pov:1: has a comment without an end"));
   EXPECT_TRUE(holds(failure("e.pov", std::string(5000, '(')), "e.pov"));
+  std::string deep = "#declare T = ";
+  for (int i = 0; i < 100'000; ++i) deep += "transform { ";
+  EXPECT_TRUE(holds(failure("deep.pov", deep), "deep.pov:1: has transforms within transforms, too deep"));
   EXPECT_TRUE(holds(failure("f.pov", pov_patch("scale 1e12")), "f.pov: has a patch with a point at "));
   EXPECT_TRUE(holds(failure("g.pov", pov_patch("translate <1/0, 0, 0>")), "g.pov: has a patch with a point at "));
   EXPECT_TRUE(holds(failure("a.rib", "\nPatch \"bicubic\" \"P\" [0 1 2]\n"), "a.rib:2: has a Patch of 1 point"));
