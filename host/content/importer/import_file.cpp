@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <cstdio>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/json_file.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
@@ -19,8 +15,9 @@
 #include "host/content/importer/import_mesh.h"
 #include "host/content/importer/import_motion.h"
 #include "host/content/importer/import_report.h"
-#include "host/content/importer/orientation.h"
 #include "host/content/importer/import_patches.h"
+#include "host/content/importer/joint_names.h"
+#include "host/content/importer/orientation.h"
 
 namespace mars::importer {
 namespace {
@@ -64,20 +61,14 @@ std::vector<std::string> run(const ImportOptions& options, FileKind kind, const 
   return parts;
 }
 
-bool is_utf8(const std::string& text) {
-  return document::Json::parse(document::Json(text).dump(-1, ' ', false, document::Json::error_handler_t::replace)) ==
-         text;
-}
-
 // `given` is the name that a person gave; "": the joint is named as the file.
 void check_joint(const std::string& joint, const std::string& given, const std::filesystem::path& from) {
-  constexpr std::size_t kMost = 90;  // of a name's 100 bytes: numbers may follow
-  const bool plain = !joint.empty() && joint.size() <= kMost && joint.find('/') == std::string::npos &&
+  const bool plain = !joint.empty() && joint.size() <= kLongestJointName && joint.find('/') == std::string::npos &&
                      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); }) &&
-                     is_utf8(joint);
+                     in_utf8(joint) == joint;
   if (plain) return;
   const std::string name = "'" + document::printable(joint) + "'";
-  constexpr const char* kNames = "of 1 to 90 bytes of UTF-8, without '/' and ends of lines";
+  constexpr const char* kNames = "of 1 to 90 bytes of UTF-8, without '/' and control characters";
   if (given.empty())
     throw Failure("its name, " + name + ", cannot name a joint", document::printable(from.string()),
                   std::string("give the joint a name with --joint: one ") + kNames);

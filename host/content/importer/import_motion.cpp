@@ -83,14 +83,10 @@ Read read_motion_file(const ImportOptions& options, FileKind kind) {
   return {std::move(bvh.skeleton), std::move(bvh.motion), std::move(bvh.remarks), std::move(bvh.not_read), {}};
 }
 
-// In UTF-8, as a model can have them.
+// As a model can have them.
 void name_joints(Skeleton& skeleton) {
-  using document::Json;
   JointNames names;
-  for (modeler::Joint& joint : skeleton.joints) {
-    const std::string text = Json(joint.name).dump(-1, ' ', false, Json::error_handler_t::replace);
-    joint.name = names.unused(Json::parse(text).get<std::string>());
-  }
+  for (modeler::Joint& joint : skeleton.joints) joint.name = names.unused(joint.name);
 }
 
 // So that its lowest point at rest is at height 0; what the first joint does then is the actor's place.

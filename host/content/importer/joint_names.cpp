@@ -2,17 +2,18 @@
 
 #include <cctype>
 
+#include "host/content/document/json_file.h"
+
 namespace mars::importer {
 namespace {
 
-constexpr std::size_t kLongestName = 90;  // of a name's 100 bytes: numbers may follow
-
-// A name of a model for a name of any bytes of UTF-8.
-std::string plain_name(std::string name) {
+// A name of a model for a name of any bytes.
+std::string plain_name(const std::string& given) {
+  std::string name = in_utf8(given);
   for (char& byte : name)
     if (byte == '/' || std::iscntrl(static_cast<unsigned char>(byte))) byte = '-';
-  if (name.size() > kLongestName) {
-    std::size_t end = kLongestName;
+  if (name.size() > kLongestJointName) {
+    std::size_t end = kLongestJointName;
     while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // not within a letter
     name.resize(end);
   }
@@ -20,6 +21,11 @@ std::string plain_name(std::string name) {
 }
 
 }  // namespace
+
+std::string in_utf8(const std::string& text) {
+  using document::Json;
+  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+}
 
 std::string JointNames::unused(const std::string& wanted) {
   const auto [known, is_new] = names_.try_emplace(plain_name(wanted), 2);

@@ -87,6 +87,14 @@ TEST_F(Scenes, MotionsOfFbxHaveBonesToBeSeenInMetres) {
   }
 }
 
+// As Max and Maya write names of other alphabets.
+TEST_F(Scenes, NamesThatAreNoUtf8AreNames) {
+  std::string text = test::fbx_motion();
+  for (std::size_t at; (at = text.find("Model::Hips")) != std::string::npos;) text.replace(at, 11, "Model::H\xfcpte");
+  import("walk.fbx", text);
+  EXPECT_LT(glm::distance(joint_at("H\xef\xbf\xbdpte", 0), {0, 0, 1}), 1e-5);
+}
+
 TEST_F(Scenes, FbxTurnsAboutPointsOfItsOwnAndSaysWhatIsUp) {
   const std::string report = import("flag.fbx", test::fbx_pivot());
   EXPECT_FALSE(holds(report, "joints of")) << report;
