@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "host/content/document/text.h"
+
 namespace mars::importer {
 namespace {
 
@@ -21,8 +23,9 @@ void check_chain(const FigureTree& tree, LimbDraft& draft, std::span<const Limb>
     std::size_t& joint = draft.of(limb, side);
     if (joint == kNone) continue;
     if (before != kNone && (joint == before || !is_at_or_below(tree, joint, before))) {
-      draft.doubts.push_back("'" + tree[joint].name + "' does not hang below '" + tree[before].name + "', the " +
-                             limb_name(limb_before, side) + ": no " + limb_name(limb, side));
+      draft.doubts.push_back("'" + document::printable(tree[joint].name) + "' does not hang below '" +
+                             document::printable(tree[before].name) + "', the " + limb_name(limb_before, side) +
+                             ": no " + limb_name(limb, side));
       joint = kNone;
       continue;
     }
