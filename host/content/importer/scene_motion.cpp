@@ -118,7 +118,8 @@ class SceneMotionReader {
     const std::string prefix = nodes_.nodes[node]->mName.C_Str() + std::string(kPivot);
     aiMatrix4x4 all = nodes_.nodes[node]->mTransformation;
     for (std::size_t above = nodes_.parents[node];
-         std::string_view(nodes_.nodes[above]->mName.C_Str()).starts_with(prefix); above = nodes_.parents[above]) {
+         above != modeler::kNone && std::string_view(nodes_.nodes[above]->mName.C_Str()).starts_with(prefix);
+         above = nodes_.parents[above]) {
       const aiNode& pivot = *nodes_.nodes[above];
       all = pivot.mTransformation * all;
       read_.nodes.places[above] = GltfPlace{.matrix = glm::dmat4(1)};
