@@ -25,7 +25,6 @@ struct Bone {
   std::string order = "XYZ";            // of the axis, and of turns: the first is innermost
   std::vector<std::string> dof;         // in small letters
   std::vector<modeler::Limits> limits;  // of the first of `dof`; may be fewer
-  std::size_t line = 0;
 };
 
 std::string small(std::string_view word) {
@@ -159,7 +158,6 @@ class AsfReader {
       words_.expect("begin", "before a bone");
       if (bones_.size() == kMostBones) words_.fail("has more than 10000 bones", "export fewer");
       Bone bone;
-      bone.line = words_.line();
       while (!words_.takes("end")) read_part(bone);
       if (bone.name.empty()) words_.fail("has a bone without a name", "give each bone a name");
       if (bone.name == root_.name || !bones_.emplace(bone.name, bone).second)

@@ -29,7 +29,6 @@ struct BvhJoint {
   glm::dvec3 offset{0};
   std::size_t first = 0;  // of a frame's numbers
   double third = 1;
-  std::size_t line = 0;
 
   // 1 along the axes for which it has channels of positions, else 0.
   glm::dvec3 placed_axes() const {
@@ -97,7 +96,6 @@ class BvhReader {
     file_.skeleton.joints.push_back(joint);
     file_.skeleton.ends.emplace_back();
     joints_.emplace_back();
-    joints_.back().line = words_.line();
     if (!opened) words_.expect("{", "after a joint's name");
     return joints_.size() - 1;
   }

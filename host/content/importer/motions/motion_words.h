@@ -26,7 +26,6 @@ class MotionWords {
   double number(const char* of);  // finite, at most 1e9
   std::size_t whole_number(const char* of);
 
-  std::size_t line() const { return line_; }
   [[noreturn]] void fail(const std::string& problem, const std::string& remedy) const;
 
  private:

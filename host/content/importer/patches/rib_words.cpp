@@ -61,7 +61,6 @@ std::string RibWords::text() {
 RibArgument RibWords::array() {
   rest_.remove_prefix(1);
   RibArgument all;
-  all.is_array = true;
   for (skip(); !rest_.starts_with(']'); skip()) {
     if (rest_.empty()) refuse("ends within [ ]", "the file may be cut short");
     if (rest_[0] == '"')
@@ -86,9 +85,9 @@ std::optional<RibRequest> RibWords::next() {
     if (rest_[0] == '[')
       request.arguments.push_back(array());
     else if (rest_[0] == '"')
-      request.arguments.push_back({text(), {}, false});
+      request.arguments.push_back({text(), {}});
     else
-      request.arguments.push_back({std::nullopt, {number()}, false});
+      request.arguments.push_back({std::nullopt, {number()}});
   }
   return request;
 }

@@ -12,7 +12,6 @@ namespace mars::importer {
 struct RibArgument {
   std::optional<std::string> text;  // else numbers
   std::vector<double> numbers;
-  bool is_array = false;  // stood in [ ]
 };
 
 struct RibRequest {
