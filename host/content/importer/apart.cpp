@@ -28,14 +28,15 @@ std::string packed(const Failure& failure) {
   return failure.problem + '\0' + failure.where + '\0' + failure.remedy + '\0';
 }
 
-Failure unpacked(const std::string& text) {
+// Of exceptions that name no place, at `where`.
+Failure unpacked(const std::string& text, const std::string& where) {
   std::array<std::string, 3> parts;
   std::size_t at = 0;
   for (std::string& part : parts) {
     part = text.c_str() + std::min(at, text.size());
     at += part.size() + 1;
   }
-  return {parts[0], parts[1], parts[2]};
+  return {parts[0], parts[1].empty() ? where : parts[1], parts[2]};
 }
 
 // In the new process: its exit code.
@@ -112,7 +113,7 @@ std::string run_apart(const std::function<std::vector<std::string>()>& work, con
   if (!answer) process.send(SIGKILL);
   const child::Ending ending = process.wait();
   if (answer && ending.well()) return std::move(*answer);
-  if (answer && ending.code == kHasFailed) throw unpacked(*answer);
+  if (answer && ending.code == kHasFailed) throw unpacked(*answer, where);
   throw Failure(reason_of(ending, !answer, limits), where, remedy);
 }
 

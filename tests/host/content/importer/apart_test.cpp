@@ -44,7 +44,7 @@ TEST(Apart, ItsPartsAreJoined) {
 TEST(Apart, ItsFailureIsOurs) {
   EXPECT_EQ(failure([]() -> std::string { throw Failure("is bad", "b", "look at it"); }), "b: is bad (look at it)");
   EXPECT_EQ(failure([]() -> std::string { throw std::runtime_error("odd"); }),
-            "MARS did not expect this: odd (please report it with the command)");
+            "a file: MARS did not expect this: odd (please report it with the command)");
 }
 
 TEST(Apart, DyingIsTold) {
