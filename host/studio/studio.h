@@ -31,8 +31,8 @@ class Studio {
   // `pages` must outlive it.
   Studio(Parts parts, web::Pages& pages);
 
-  // Only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails
-  // otherwise is a remark to the page, or to all.
+  // Only upload() throws. A message that fails or makes no sense is answered with `refused`; what fails otherwise is a
+  // remark to the page, or to all.
   void page_opened(PageNumber page);
   void handle_message(PageNumber page, const Json& message);
   void page_closed(PageNumber page);

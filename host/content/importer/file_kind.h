@@ -32,8 +32,7 @@ bool same_ending(const std::filesystem::path& path, std::string_view ending);
 // By the ending, in capitals or not; none: it is no file that `mars import` takes, but may be a companion of one.
 std::optional<FileKind> known_kind(const std::filesystem::path& path);
 
-// The same. Refuses every other: for files of well-known programs with the way from them to
-// one that can be read.
+// The same. Refuses every other; of files of well-known programs, in a failure with the way to one that can be read.
 FileKind kind_of_name(const std::filesystem::path& path);
 
 // Refuses a file whose first bytes are another kind's; what is no file is left to its reader.

@@ -1,6 +1,5 @@
 // What Assimp 5.2 does not give of a glTF file's nodes: which node a bone is (Assimp has names alone, and several nodes
-// may have one), and which of the nodes that share a mesh have a skin. FBX and COLLADA have the same
-// (scene_nodes.h).
+// may have one), and which of the nodes that share a mesh have a skin. FBX and COLLADA have the same (scene_nodes.h).
 #pragma once
 
 #include <cstddef>

@@ -8,9 +8,9 @@
 
 namespace mars::importer {
 
-// Reads the file `from` and writes the model or film `to`. Nodes of glTF with meshes below them become
-// joints; a mesh of several colours has a joint for each, fixed to the first. The report of what was read, what was
-// made of it, and what was not read.
+// Reads the file `from` and writes the model or film `to`. Nodes of scenes with meshes or bones below them become
+// joints; a mesh of several colours has a joint for each, fixed to the first. Returns the report of what was read, what
+// was made of it, and what was not read.
 std::string import_model(const ImportOptions& given);
 
 }  // namespace mars::importer

@@ -1,4 +1,4 @@
-// `mars import` of meshes: OBJ, STL, PLY, glTF and GLB become a model.
+// `mars import` of meshes and scenes (OBJ, STL, PLY, glTF, GLB, FBX, COLLADA), which become a model.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -25,8 +25,7 @@ std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, con
 MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance,
                    std::vector<glm::dmat4> rest = {});
 
-// As a model file.
-// Leaves the file without its meshes.
+// As a model file. Leaves the file without its meshes.
 document::LongText model_text_of(MeshFile& file);
 
 // A report but for what the model or film is.

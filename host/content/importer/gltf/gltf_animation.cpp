@@ -50,8 +50,8 @@ GltfPlace place_of(const Tree& node) {
 void refuse_circles(const std::filesystem::path& path, const std::vector<std::size_t>& parents) {
   std::vector<std::size_t> seen_from(parents.size(), modeler::kNone);
   for (std::size_t node = 0; node < parents.size(); ++node)
-    for (std::size_t above = node; above != modeler::kNone && seen_from[above] != node; above = parents[above]) {
-      if (seen_from[above] != modeler::kNone) break;
+    for (std::size_t above = node; above != modeler::kNone && seen_from[above] == modeler::kNone;
+         above = parents[above]) {
       seen_from[above] = node;
       if (parents[above] != modeler::kNone && seen_from[parents[above]] == node)
         refuse(path, "has nodes that are below themselves", "export it again");

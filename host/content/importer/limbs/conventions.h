@@ -10,10 +10,9 @@
 namespace mars::importer {
 
 // Names in small letters and digits only, as plain_letters() leaves them: "mixamorig:LeftUpLeg" is
-// "mixamorigleftupleg".
-// '%' stands for the side's word, '|' is between alternatives, of which the first that is there counts; "": the
-// convention has no such joint. Anything may precede a name, the same for all joints of a figure. Spine and chest
-// follow from the tree: the chest carries the arms, whatever the number of vertebrae.
+// "mixamorigleftupleg". '%' stands for the side's word, '|' is between alternatives, of which the first that is there
+// counts; "": the convention has no such joint. Anything may precede a name, the same for all joints of a figure. Spine
+// and chest follow from the tree: the chest carries the arms, whatever the number of vertebrae.
 struct Convention {
   const char* name;  // for people
   const char* source;
