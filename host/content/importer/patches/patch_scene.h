@@ -1,6 +1,7 @@
 // Bicubic Bezier patches of a scene of another program, as its readers give them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <filesystem>
@@ -31,6 +32,12 @@ inline constexpr std::size_t kMostScenePatches = 2'000'000, kDeepestScene = 200;
 inline constexpr std::uintmax_t kLargestPatchScene = std::uintmax_t{1} << 28;
 
 void transform(std::vector<ScenePatch>& patches, const glm::dmat4& by);
+
+// Cut to 0 to 1; what is no number becomes 0.
+inline PatchColor cut_color(const glm::dvec3& color) {
+  const auto cut = [](double part) { return part > 0 ? std::min(part, 1.0) : 0.0; };
+  return {cut(color.x), cut(color.y), cut(color.z)};
+}
 
 // bicubic_patch of POV-Ray, with numbers, vectors and objects that #declare names, and what moves and colours the
 // objects around it; other objects are skipped, as are macros, loops, conditions and files included from elsewhere than

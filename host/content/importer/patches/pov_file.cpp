@@ -19,7 +19,6 @@ namespace {
 constexpr std::array<std::string_view, 5> kGroups{"union", "merge", "object", "intersection", "difference"};
 constexpr std::array<std::string_view, 7> kOpening{"if", "ifdef", "ifndef", "while", "for", "switch", "macro"};
 constexpr std::array<std::string_view, 4> kLooks{"texture", "pigment", "material", "interior_texture"};
-constexpr std::array<std::string_view, 7> kRgb{"color", "colour", "rgb", "rgbf", "rgbt", "rgbft", "srgb"};
 
 bool is_one_of(const auto& words, const PovWord& word) {
   return word.kind == PovKind::word && std::ranges::find(words, word.text) != words.end();
@@ -234,7 +233,7 @@ class PovReader {
     for (in_.go_to(begin); in_.place() < end && !color; in_.take())
       if (const auto known = colors_.find(in_.peek().text); known != colors_.end())
         color = known->second;
-      else if (is_one_of(kRgb, in_.peek()))
+      else if (is_one_of(kColorWords, in_.peek()))
         color = color_here();
     in_.go_to(end);
     return color;
@@ -244,8 +243,7 @@ class PovReader {
     const std::size_t place = in_.place();
     std::optional<PatchColor> color;
     try {
-      const glm::dvec3 value = in_.vector();
-      color = PatchColor{std::clamp(value.x, 0.0, 1.0), std::clamp(value.y, 0.0, 1.0), std::clamp(value.z, 0.0, 1.0)};
+      color = cut_color(in_.vector());
     } catch (const Failure&) {
       color = std::nullopt;  // of a colour that is computed
     }

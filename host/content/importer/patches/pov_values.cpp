@@ -1,10 +1,8 @@
 #include "host/content/importer/patches/pov_values.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
@@ -14,7 +12,6 @@ namespace mars::importer {
 namespace {
 
 constexpr std::size_t kMostNumbers = 12;  // of a matrix
-constexpr std::array<std::string_view, 7> kColorWords{"color", "colour", "rgb", "rgbf", "rgbt", "rgbft", "srgb"};
 
 // Number by number; one number stands for as many as the other has.
 PovValue combined(const PovValue& one, const PovValue& other, auto how) {

@@ -1,10 +1,13 @@
 // Numbers and vectors of POV-Ray: sums and products of numbers, vectors, x, y, z and what #declare names.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,7 +15,10 @@
 
 namespace mars::importer {
 
-using PovValue = std::vector<double>;  // 1 to 5 numbers
+using PovValue = std::vector<double>;  // 1 to 5 numbers, of a matrix 12
+
+// Before the numbers of a colour.
+inline constexpr std::array<std::string_view, 7> kColorWords{"color", "colour", "rgb", "rgbf", "rgbt", "rgbft", "srgb"};
 
 class PovValues {
  public:

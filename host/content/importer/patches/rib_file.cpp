@@ -202,7 +202,7 @@ class RibReader {
 
   void set_color() {
     const std::vector<double> rgb = numbers(3);
-    state_.color = {std::clamp(rgb[0], 0.0, 1.0), std::clamp(rgb[1], 0.0, 1.0), std::clamp(rgb[2], 0.0, 1.0)};
+    state_.color = cut_color({rgb[0], rgb[1], rgb[2]});
   }
 
   void note_surface() {

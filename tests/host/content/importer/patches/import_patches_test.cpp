@@ -129,6 +129,11 @@ TEST_F(Patches, BecomeAModelOfAJointForEachColor) {
   EXPECT_EQ(model.joints[0].segment->sbb.max, model.joints[1].segment->sbb.max);
 }
 
+TEST_F(Patches, ColoursThatAreNoNumbersAreDark) {
+  const PatchScene scene = pov(pov_patch("pigment { rgb <0/0, 2, -1> }"));
+  EXPECT_EQ(scene.patches[0].color, (PatchColor{0, 1, 0}));
+}
+
 TEST_F(Patches, DamagedFilesAreFailuresWithTheirLine) {
   EXPECT_TRUE(holds(failure("a.pov", "\n" + pov_patch().substr(0, 90)), "a.pov:3: "));
   EXPECT_TRUE(holds(failure("b.pov", "\nobject { " + pov_patch() + " rotate Unknown }"), "whose value is not known"));
