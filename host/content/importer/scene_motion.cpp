@@ -18,7 +18,6 @@ namespace {
 
 constexpr double kUsualTicks = 25;  // a second, of a file that does not say them
 constexpr double kUsualAspect = 16.0 / 9;
-constexpr double kWidestView = 3.12;  // radians; a camera of MARS sees no half sphere
 
 GltfPlace place_of(const aiMatrix4x4& matrix, bool is_animated) {
   GltfPlace place;
@@ -170,7 +169,7 @@ class SceneMotionReader {
     if (given.mOrthographicWidth > 0)
       camera.ymag = double(given.mOrthographicWidth) / aspect;
     else
-      camera.yfov = std::min(2 * std::atan(std::tan(double(given.mHorizontalFOV) / 2) / aspect), kWidestView);
+      camera.yfov = 2 * std::atan(std::tan(double(given.mHorizontalFOV) / 2) / aspect);
     if (given.mClipPlaneNear > 0) camera.znear = double(given.mClipPlaneNear) * unit;
     if (given.mClipPlaneFar > 0) camera.zfar = double(given.mClipPlaneFar) * unit;
     if (!camera.yfov || *camera.yfov > 0) read_.cameras.push_back(camera);

@@ -16,6 +16,8 @@ constexpr double kViewTrue = 1e-6;  // of the size of what is seen
 constexpr double kUsualAspect = 16.0 / 9, kSameAspect = 2e-3;
 constexpr double kPictureHeight = 540, kGreatestSide = 16384;  // pixels
 constexpr double kNearestPlane = 1e-6, kFarthestPlane = 1e9;
+constexpr double kNarrowestView = 0.01, kWidestView = 179;  // degrees, that a film's camera may see
+constexpr double kLowestView = 1e-5, kHighestView = 1e9;    // units, of an orthographic one
 
 // Of a camera, by frame.
 struct View {
@@ -54,14 +56,15 @@ std::optional<std::array<std::uint32_t, 2>> size_of(const GltfCamera& camera) {
   return std::array{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(kPictureHeight)};
 }
 
-// What the file does not say, or not as a film can have it, is as is usual.
+// What the file does not say is as is usual; what a film cannot have is the nearest that it can.
 Json lens_of(const GltfCamera& camera, double factor) {
   Json json = Json::object();
   if (camera.yfov) {
-    json["fov"] = document::plain_number(*camera.yfov * 180 / std::numbers::pi);
+    json["fov"] =
+        document::plain_number(std::clamp(*camera.yfov * 180 / std::numbers::pi, kNarrowestView, kWidestView));
   } else {
     json["projection"] = "orthographic";
-    json["height"] = document::plain_number(2 * camera.ymag * factor);
+    json["height"] = document::plain_number(std::clamp(2 * camera.ymag * factor, kLowestView, kHighestView));
   }
   const double near = camera.znear ? std::clamp(*camera.znear * factor, kNearestPlane, kFarthestPlane) : kNearestPlane;
   const double far = camera.zfar ? std::clamp(*camera.zfar * factor, kNearestPlane, kFarthestPlane) : kFarthestPlane;

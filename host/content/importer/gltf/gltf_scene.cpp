@@ -14,7 +14,6 @@
 namespace mars::importer {
 namespace {
 
-constexpr double kWidestView = 3.12;  // radians; a camera of MARS sees no half sphere
 constexpr std::array<std::pair<std::string_view, GltfLightKind>, 3> kLightKinds{
     {{"directional", GltfLightKind::directional}, {"point", GltfLightKind::point}, {"spot", GltfLightKind::spot}}};
 
@@ -43,7 +42,7 @@ GltfCamera camera_of(const Tree& camera, std::size_t node) {
   const Tree& perspective = at(camera, "perspective");
   if (!perspective.is_null())
     return {node,
-            std::min(positive(perspective, "yfov").value_or(0.7), kWidestView),
+            positive(perspective, "yfov").value_or(0.7),
             1,
             positive(perspective, "aspectRatio"),
             positive(perspective, "znear"),
