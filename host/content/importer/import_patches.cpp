@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -74,12 +76,13 @@ struct OneColor {
 
 std::vector<OneColor> by_color(const PatchScene& scene, const modeler::Box& bounds) {
   std::vector<OneColor> colors;
+  std::map<std::optional<PatchColor>, std::size_t> numbers;  // in `colors`
   for (const ScenePatch& patch : scene.patches) {
     std::optional<PatchColor> color = patch.color;
     for (std::size_t i = 0; color && i < 3; ++i) (*color)[i] = std::round((*color)[i] * 1000) / 1000;
-    auto same = std::ranges::find(colors, color, &OneColor::color);
-    if (same == colors.end()) same = colors.insert(same, {color, {}});
-    same->patches.push_back(in_box(patch, bounds));
+    const auto [number, is_new] = numbers.try_emplace(color, colors.size());
+    if (is_new) colors.push_back({color, {}});
+    colors[number->second].patches.push_back(in_box(patch, bounds));
   }
   return colors;
 }
