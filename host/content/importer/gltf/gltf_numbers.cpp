@@ -115,8 +115,8 @@ GltfBuffers::Run GltfBuffers::run(const Tree& part, std::size_t count, std::size
                     first = number(at(part, "byteOffset"), 0), length = number(at(view, "byteLength"), 0),
                     begin = number(at(view, "byteOffset"), 0);
   const std::string_view bytes = view.is_null() ? std::string_view() : buffer(at(view, "buffer"));
-  const bool fits = begin <= bytes.size() && length <= bytes.size() - begin && first <= length && stride >= element &&
-                    stride <= 252 &&
+  const bool fits = element > 0 && begin <= bytes.size() && length <= bytes.size() - begin && first <= length &&
+                    stride >= element && stride <= 252 &&
                     (count == 0 || (element <= length - first && (count - 1) <= (length - first - element) / stride));
   return {bytes, begin + first, stride, size, fits};
 }
@@ -149,7 +149,7 @@ void GltfBuffers::replace_sparse(const Tree& sparse, std::size_t component, Gltf
   const std::size_t count = number(at(sparse, "count"), 0), type = number(at(indices, "componentType"), 0);
   const Run places = run(indices, count, type == kWholeNumbers ? kFloats : type, 1),
             values = run(at(sparse, "values"), count, component, read.width);
-  bool fits = places.fits && values.fits && places.size > 0;
+  bool fits = places.fits && values.fits;
   for (std::size_t i = 0; fits && i < count; ++i) {
     std::size_t place = 0;
     for (std::size_t byte = places.size; byte-- > 0;)
