@@ -5,7 +5,7 @@ namespace mars::node {
 void charge_begin(FrameReport& report, const geometry::Scene& scene, bool is_first_frame) {
   report.charge(wire::Work::first_frame, is_first_frame ? 1 : 0);
   report.charge(wire::Work::frame, 1);
-  report.charge(wire::Work::segment, scene.film().segments().size());
+  report.charge(wire::Work::segment, scene.film().segments().size() + scene.film().bones().size());
 }
 
 void charge_tessellation(FrameReport& report, const geometry::Scene& scene, const Tessellation& made,
@@ -15,6 +15,9 @@ void charge_tessellation(FrameReport& report, const geometry::Scene& scene, cons
   charge(wire::Work::meshlet, made.surfaces.meshlets);
   charge(wire::Work::vertex, made.surfaces.vertices);
   charge(wire::Work::mesh_vertex, made.surfaces.mesh_vertices);
+  charge(wire::Work::net_term, made.surfaces.net_terms);
+  charge(wire::Work::skin_weight, made.surfaces.skin_weights);
+  charge(wire::Work::dual_weight, made.surfaces.dual_weights);
   charge(wire::Work::triangle_tested, tested);
   charge(wire::Work::row_tested, tested * static_cast<std::uint64_t>(scene.pattern().count));
   charge(wire::Work::triangle, made.made.triangles);

@@ -161,8 +161,15 @@ wire::MadeSurface FrameCounter::mark_surface(const SurfaceMark& mark, std::span<
   const auto used = std::span(surface_).subspan(all.first, all.count());
   lines.insert(lines.end(), used.begin(), used.end());
   std::ranges::fill(used, wire::SurfaceLine());
-  return {mark.patch,          mark.is_meshlet ? 1u : 0u, count(mark.vertices),   count(mark.triangles_tested),
-          count(mark.colored), count(mark.triangles),     count(mark.edge_boxes), all.first,
+  return {mark.patch,
+          mark.bending.kind,
+          count(mark.bending.units),
+          count(mark.vertices),
+          count(mark.triangles_tested),
+          count(mark.colored),
+          count(mark.triangles),
+          count(mark.edge_boxes),
+          all.first,
           all.count()};
 }
 
@@ -174,6 +181,9 @@ wire::UnitCounts FrameCounter::units_of(const Tessellation& made, const wire::Wo
   set(Work::meshlet, made.surfaces.meshlets);
   set(Work::vertex, made.surfaces.vertices);
   set(Work::mesh_vertex, made.surfaces.mesh_vertices);
+  set(Work::net_term, made.surfaces.net_terms);
+  set(Work::skin_weight, made.surfaces.skin_weights);
+  set(Work::dual_weight, made.surfaces.dual_weights);
   set(Work::triangle_tested, work.triangles_tested);
   set(Work::row_tested, work.triangles_tested * static_cast<std::uint64_t>(scene_.pattern().count));
   set(Work::vertex_light, made.surfaces.colored * scene_.lights().size());

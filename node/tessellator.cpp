@@ -31,23 +31,28 @@ struct Tessellator::Output {
   const OwnLines* own = nullptr;  // of the current segment, where only some of it may touch them
   SurfaceCounts counts{};
 
-  void add_patch(const shape::Surface& surface, const raster::PatchIdentity& identity) {
+  void add_patch(const shape::Surface& surface, const raster::PatchIdentity& identity,
+                 const geometry::Bending& bending) {
     ++counts.patches;
     counts.vertices += static_cast<std::uint64_t>(surface.vertex_count());
-    add_marked(surface, identity, false);
+    counts.net_terms += bending.units;
+    add_marked(surface, identity, bending);
   }
 
-  void add_meshlet(const shape::Surface& surface, const raster::PatchIdentity& identity) {
+  void add_meshlet(const shape::Surface& surface, const raster::PatchIdentity& identity,
+                   const geometry::Bending& bending) {
     ++counts.meshlets;
     counts.mesh_vertices += static_cast<std::uint64_t>(surface.vertex_count());
-    add_marked(surface, identity, true);
+    (bending.kind == wire::SurfaceKind::dual_meshlet ? counts.dual_weights : counts.skin_weights) += bending.units;
+    add_marked(surface, identity, bending);
   }
 
-  void add_marked(const shape::Surface& surface, const raster::PatchIdentity& identity, bool is_meshlet) {
+  void add_marked(const shape::Surface& surface, const raster::PatchIdentity& identity,
+                  const geometry::Bending& bending) {
     const std::uint64_t triangles = out.touching, edge_boxes = out.edge_boxes, colored = counts.colored;
     add(surface, identity);
     if (watch.marks != nullptr)
-      watch.marks->push_back({identity.patch, is_meshlet, static_cast<std::uint64_t>(surface.vertex_count()),
+      watch.marks->push_back({identity.patch, bending, static_cast<std::uint64_t>(surface.vertex_count()),
                               surface.triangles().count, counts.colored - colored, out.touching - triangles,
                               out.edge_boxes - edge_boxes});
   }
@@ -137,7 +142,7 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   for (; i < shape.patch_count; i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
-    add_patch(scene, place_.patch(film, i), identity, output);
+    add_patch(scene, i, identity, output);
   }
   for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i = from(i + 1)) {
     look_now_and_then();
@@ -155,15 +160,16 @@ Tessellator::Touches Tessellator::touches(const geometry::Scene& scene, const Ow
   return inside ? Touches::only : Touches::perhaps;
 }
 
-void Tessellator::add_patch(const geometry::Scene& scene, const shape::EyePatch& eye_patch,
-                            const raster::PatchIdentity& identity, Output& output) {
+void Tessellator::add_patch(const geometry::Scene& scene, std::size_t number, const raster::PatchIdentity& identity,
+                            Output& output) {
+  const shape::EyePatch eye_patch = place_.patch(scene.film(), number);
   const auto width = static_cast<float>(scene.width()), height = static_cast<float>(scene.height());
   if (shape::unseen(eye_patch, scene.projection(), width, height)) return;
   if (output.own != nullptr &&
       !meet(geometry::picture_box(eye_patch.point, 16, scene.projection(), size_of(scene)), output.own->lines))
     return;
   dicer_.dice(eye_patch, scene.projection(), scene.dicing());
-  output.add_patch(dicer_, identity);
+  output.add_patch(dicer_, identity, place_.bending(scene.film(), number));
 }
 
 void Tessellator::add_meshlet(const geometry::Scene& scene, const wire::Meshlet& meshlet,
@@ -175,7 +181,7 @@ void Tessellator::add_meshlet(const geometry::Scene& scene, const wire::Meshlet&
       !meet(geometry::picture_box(corners, scene.projection(), size_of(scene)), output.own->lines))
     return;
   placer_.place(place_, scene.film(), meshlet, scene.projection());
-  output.add_meshlet(placer_, identity);
+  output.add_meshlet(placer_, identity, place_.bending(meshlet));
 }
 
 }  // namespace mars::node

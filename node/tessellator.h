@@ -60,13 +60,16 @@ struct SurfaceCounts {
   std::uint64_t meshlets = 0;
   std::uint64_t vertices = 0;       // of patches
   std::uint64_t mesh_vertices = 0;  // of meshlets
-  std::uint64_t colored = 0;        // vertices and flat triangles that were shaded
+  std::uint64_t net_terms = 0;      // by which bones bend patches
+  std::uint64_t skin_weights = 0;   // by which they bend meshlets
+  std::uint64_t dual_weights = 0;
+  std::uint64_t colored = 0;  // vertices and flat triangles that were shaded
 };
 
 // One of them, as it was made.
 struct SurfaceMark {
   std::uint32_t patch;  // its number
-  bool is_meshlet;
+  geometry::Bending bending;
   std::uint64_t vertices, triangles_tested, colored;
   std::uint64_t triangles, edge_boxes;  // on wanted lines
 };
@@ -103,7 +106,8 @@ class Tessellator {
   void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
   // Of the segment that place_ is of.
   Touches touches(const geometry::Scene& scene, const OwnLines* own) const;
-  void add_patch(const geometry::Scene& scene, const shape::EyePatch& eye_patch, const raster::PatchIdentity& identity,
+  // Of the segment's shape, by its number.
+  void add_patch(const geometry::Scene& scene, std::size_t number, const raster::PatchIdentity& identity,
                  Output& output);
   void add_meshlet(const geometry::Scene& scene, const wire::Meshlet& meshlet, const raster::PatchIdentity& identity,
                    Output& output);

@@ -13,6 +13,8 @@ using nlohmann::json;
 
 // Bodies differ from their neighbours, as the parts of figures do.
 constexpr const char* kMixed = "mixed";
+constexpr const char* kLinear = "linear";
+constexpr const char* kDual = "dual-quaternions";
 constexpr std::array kShapes{"sphere", "cylinder", "cone", "box"};
 constexpr std::array kReflections{"phong", "blinn-phong", "cook-torrance"};
 
@@ -27,9 +29,10 @@ struct Bodies {
   int lights;
   int samples;
   const char* extent;
-  int casting = 0;       // of its lights, the first
-  double width = 0;      // in degrees, of the first
-  bool outside = false;  // as many again cast shadows from outside the picture
+  int casting = 0;              // of its lights, the first
+  double width = 0;             // in degrees, of the first
+  bool outside = false;         // as many again cast shadows from outside the picture
+  const char* blend = nullptr;  // of their skins
 };
 
 constexpr Bodies kBodies[] = {
@@ -68,32 +71,47 @@ constexpr Bodies kBodies[] = {
     {"dusk", "teapot", 2, 2.5, 0, "phong", "phong", 1, 4, "320x180", 1, 2},
     {"outside", "teapot", 3, 1.6, 0, "phong", "phong", 2, 4, "480x270", 1, 0, true},
     {"beyond", "sphere", 12, 0.4, 0, "phong", "phong", 1, 1, "480x270", 1, 0, true},
+    {"skins", "hills", 5, 1.3, 1, "phong", "phong", 2, 1, "480x270", 0, 0, false, kLinear},
+    {"herd", "stone", 14, 0.45, 1, "phong", "phong", 1, 1, "320x180", 0, 0, false, kLinear},
+    {"duals", "hills", 5, 1.3, 1, "phong", "phong", 2, 1, "480x270", 0, 0, false, kDual},
+    {"flock", "stone", 14, 0.45, 1, "phong", "phong", 1, 1, "320x180", 0, 0, false, kDual},
+    {"nets", "sheet", 3, 2, 0, "phong", "phong", 2, 1, "480x270", 0, 0, false, kLinear},
+    {"capes", "sheet", 8, 0.8, 0, "phong", "phong", 1, 1, "320x180", 0, 0, false, kDual},
 };
 
 double wave(double x, double y) {
   return 0.5 + 0.4 * std::sin(4 * std::numbers::pi * x) * std::cos(6 * std::numbers::pi * y);
 }
 
-// A wavy mesh of `side` times `side` squares, within 0 to 1.
-json mesh(int side) {
-  json vertices = json::array(), faces = json::array();
+// Of four joints, of a place from 0 to 1 along the shape: those of the skin's ends and middle.
+json bones_at(double along) {
+  const double middle = 1 - std::abs(2 * along - 1);
+  return along < 0.5 ? json{0, 1 - along, 1, middle, 2, 0.2} : json{1, middle + 0.1, 2, along, 3, along - 0.4};
+}
+
+// A wavy mesh of `side` times `side` squares, within 0 to 1; `has_bones`: for a skin.
+json mesh(int side, bool has_bones) {
+  json vertices = json::array(), faces = json::array(), bones = json::array();
   for (int i = 0; i <= side; ++i)
     for (int j = 0; j <= side; ++j) {
       const double x = static_cast<double>(i) / side, y = static_cast<double>(j) / side;
       vertices.push_back({x, y, wave(x, y)});
+      bones.push_back(bones_at(x));
     }
   for (int i = 0; i < side; ++i)
     for (int j = 0; j < side; ++j) {
       const int at = i * (side + 1) + j;
       faces.push_back({at, at + side + 1, at + side + 2, at + 1});
     }
-  return {{"mesh", {{"vertices", vertices}, {"faces", faces}, {"crease", 180}}}};
+  json mesh = {{"vertices", vertices}, {"faces", faces}, {"crease", 180}};
+  if (has_bones) mesh["bones"] = bones;
+  return {{"mesh", mesh}};
 }
 
 // Many patches.
-json sheet() {
+json sheet(bool has_bones) {
   constexpr int kSide = 15;
-  json rows = json::array();
+  json rows = json::array(), bones = json::array();
   for (int i = 0; i <= kSide; ++i) {
     json row = json::array();
     for (int j = 0; j <= kSide; ++j) {
@@ -101,11 +119,16 @@ json sheet() {
       row.push_back({x, y, wave(x, y)});
     }
     rows.push_back(row);
+    bones.push_back(json(std::vector<json>(kSide + 1, bones_at(static_cast<double>(i) / kSide))));
   }
-  return {{"bspline", {{"points", rows}}}};
+  json sheet = {{"points", rows}};
+  if (has_bones) sheet["bones"] = bones;
+  return {{"bspline", sheet}};
 }
 
-json own_shapes() { return {{"hills", mesh(48)}, {"stone", mesh(3)}, {"sheet", sheet()}}; }
+json own_shapes(bool has_bones) {
+  return {{"hills", mesh(48, has_bones)}, {"stone", mesh(3, has_bones)}, {"sheet", sheet(has_bones)}};
+}
 
 json lights(const Bodies& bodies) {
   json all[] = {{{"direction", {-0.4, -0.7, 0.8}}},
@@ -145,9 +168,15 @@ json actors(const Bodies& bodies, std::size_t models) {
 
 json model(const Bodies& bodies, const std::string& shape, const std::string& reflection) {
   const double half = bodies.size / 2;
-  const json segment = {{"shape", shape}, {"sbb", {{-half, -half, -half}, {half, half, half}}}, {"material", "skin"}};
+  json segment = {{"shape", shape}, {"sbb", {{-half, -half, -half}, {half, half, half}}}, {"material", "skin"}};
+  json bones = json::array();
+  if (bodies.blend != nullptr) {
+    segment["skin"] = {{"joints", {"body", "bone1", "bone2", "bone3"}}, {"blend", bodies.blend}};
+    for (const char* name : {"bone1", "bone2", "bone3"}) bones.push_back({{"name", name}, {"parent", "body"}});
+  }
   json model = {{"joints", {{{"name", "body"}, {"segment", segment}}}}};
-  const json shapes = own_shapes();
+  model["joints"].insert(model["joints"].end(), bones.begin(), bones.end());
+  const json shapes = own_shapes(bodies.blend != nullptr);
   if (shapes.contains(shape)) model["shapes"] = {{shape, shapes[shape]}};
   model["materials"]["skin"] = {
       {"color", {0.7, 0.5, 0.3}}, {"reflection", reflection}, {"interpolation", bodies.interpolation}};

@@ -123,6 +123,20 @@ shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t nu
   return moved;
 }
 
+Bending SegmentPlace::bending(const wire::PackedFilm& film, std::size_t patch) const {
+  if (!has_skin()) return {wire::SurfaceKind::patch};
+  Bending bending{wire::SurfaceKind::net_patch};
+  for (const std::uint32_t stencil : film.net_patches_of(shape_)[patch])
+    bending.units += film.stencils()[stencil].term_count;
+  return bending;
+}
+
+Bending SegmentPlace::bending(const wire::Meshlet& meshlet) const {
+  if (!has_skin()) return {wire::SurfaceKind::meshlet};
+  const std::uint64_t weights = std::uint64_t{meshlet.skin.bone_count} * meshlet.vertex_count;
+  return {duals().empty() ? wire::SurfaceKind::skin_meshlet : wire::SurfaceKind::dual_meshlet, weights};
+}
+
 BoxCorners SegmentPlace::corners(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const {
   if (!has_skin()) return corners_of(matrix_, meshlet.low, meshlet.high);
   return corners_of(

@@ -13,6 +13,7 @@
 #include "node/shape/bezier.h"
 #include "node/shape/dual_quaternion.h"
 #include "node/wire/film.h"
+#include "node/wire/frame_counts.h"
 
 namespace mars::geometry {
 
@@ -48,6 +49,12 @@ shape::EyeMatrix blended(const wire::PackedFilm& film, const wire::Skin& skin, s
 // Where bones move a net's point.
 std::array<float, 3> moved_point(const wire::PackedFilm& film, const wire::NetPoint& point, const EyeBones& bones);
 
+// How bones bend a patch or meshlet, and the terms of means, or weights of vertices, by which they do.
+struct Bending {
+  wire::SurfaceKind kind;
+  std::uint64_t units = 0;
+};
+
 class SegmentPlace {
  public:
   // Of the segment, until the next call.
@@ -66,6 +73,8 @@ class SegmentPlace {
 
   // One of its shape's patches, by its number in the shape.
   shape::EyePatch patch(const wire::PackedFilm& film, std::size_t number) const;
+  Bending bending(const wire::PackedFilm& film, std::size_t patch) const;
+  Bending bending(const wire::Meshlet& meshlet) const;
   // Round one of its shape's meshlets, and round all of its shape.
   BoxCorners corners(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const;
   BoxCorners corners(const ShapeBoxes& boxes) const;

@@ -81,10 +81,17 @@ struct SurfaceLine {
   std::uint32_t go_on = 0;  // triangles with edge boxes before, and here or behind
 };
 
+// Bones bend those of nets and with skins, these by either blend.
+enum class SurfaceKind : std::uint32_t { patch, net_patch, meshlet, skin_meshlet, dual_meshlet };
+inline constexpr SurfaceKind kLastSurfaceKind = SurfaceKind::dual_meshlet;
+
+constexpr bool is_meshlet(SurfaceKind kind) { return kind >= SurfaceKind::meshlet; }
+
 // A patch or meshlet that nodes make triangles of, of which the camera may see some.
 struct MadeSurface {
   std::uint32_t number = 0;  // of all patches and meshlets: of n nodes, node `number` modulo n makes it
-  std::uint32_t is_meshlet = 0;
+  SurfaceKind kind = SurfaceKind::patch;
+  std::uint32_t bent = 0;  // terms of means, or weights of vertices, by which bones bend it
   std::uint32_t vertices = 0;
   std::uint32_t triangles_tested = 0;
   std::uint32_t colored = 0;  // vertices and flat triangles that are shaded

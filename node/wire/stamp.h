@@ -15,7 +15,7 @@
 
 namespace mars::wire {
 
-inline constexpr std::uint8_t kWireVersion = 16;
+inline constexpr std::uint8_t kWireVersion = 17;
 inline constexpr std::uint32_t kByteOrder = 0x01020304;
 
 struct WireStamp {

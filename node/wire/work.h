@@ -14,11 +14,14 @@ enum class Work : int {
   first_frame,      // of a node: code and buffers are not in its caches yet
   fresh_byte,       // of frames' memory, used for the first time
   frame,            // begun
-  segment,          // placed, in a frame
+  segment,          // placed, in a frame, or a bone of its skin
   patch,            // diced
   meshlet,          // placed
   vertex,           // of patches
   mesh_vertex,      // of meshlets
+  net_term,         // of the means that points of nets' patches are
+  skin_weight,      // of meshlets' vertices: a bone, blended by matrices
+  dual_weight,      // by dual quaternions
   triangle_tested,  // of patches and meshlets
   row_tested,       // triangles tested, times a pixel's samples
   triangle,         // set up: it touches a sample
@@ -55,46 +58,16 @@ enum class Work : int {
 };
 
 // As platform files name them.
-inline constexpr std::array<std::string_view, 39> kWorkNames{
-    "first_frame",
-    "fresh_byte",
-    "frame",
-    "segment",
-    "patch",
-    "meshlet",
-    "vertex",
-    "mesh_vertex",
-    "triangle_tested",
-    "row_tested",
-    "triangle",
-    "edge_box_made",
-    "vertex_light",
-    "edge_box_filled",
-    "line_mapped",
-    "line",
-    "edge_box",
-    "sample",
-    "shaded",
-    "light",
-    "facet_light",
-    "pixel",
-    "still_byte",
-    "casting_light",
-    "shadow_point",
-    "caster",
-    "diced_vertex",
-    "caster_vertex",
-    "caster_triangle",
-    "host_strip",
-    "host_run",
-    "host_byte",
-    "host_restored",
-    "host_frame",
-    "file",
-    "encoded_byte",
-    "encoded_png16_byte",
-    "encoded_exr_byte",
-    "file_byte",
+inline constexpr std::array<std::string_view, 42> kWorkNames{
+    "first_frame",      "fresh_byte",      "frame",        "segment",      "patch",
+    "meshlet",          "vertex",          "mesh_vertex",  "net_term",     "skin_weight",
+    "dual_weight",      "triangle_tested", "row_tested",   "triangle",     "edge_box_made",
+    "vertex_light",     "edge_box_filled", "line_mapped",  "line",         "edge_box",
+    "sample",           "shaded",          "light",        "facet_light",  "pixel",
+    "still_byte",       "casting_light",   "shadow_point", "caster",       "diced_vertex",
+    "caster_vertex",    "caster_triangle", "host_strip",   "host_run",     "host_byte",
+    "host_restored",    "host_frame",      "file",         "encoded_byte", "encoded_png16_byte",
+    "encoded_exr_byte", "file_byte",
 };
 
 // Units by kind: those of a node come first, then those of the host and of files.

@@ -86,6 +86,7 @@ FileKind kind_of_name(const std::filesystem::path& path) {
 void check_first_bytes(const std::filesystem::path& path, FileKind kind) {
   std::error_code none;
   if (!std::filesystem::is_regular_file(path, none)) return;  // a pipe would wait; its reader refuses it
+  if (std::filesystem::file_size(path, none) == 0) throw Failure("is empty", path.string(), "export it again");
   std::array<char, 4> first{};
   std::ifstream(path, std::ios::binary).read(first.data(), first.size());
   const std::string_view begins(first.data(), first.size());

@@ -58,9 +58,10 @@ std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, con
 }
 
 MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance, std::vector<glm::dmat4> rest) {
+  const bool looks_ahead = options.front.empty() && rest.empty();
   MeshFile file = read_mesh_file(options.from, kind,
                                  {stance.upright, options.size, options.crease, options.joint, set_material(options),
-                                  set_limb(options), std::move(rest)});
+                                  set_limb(options), std::move(rest), looks_ahead});
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   return file;
 }

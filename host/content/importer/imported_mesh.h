@@ -29,6 +29,7 @@ struct MeshOptions {
   // Of glTF for a film, which shows animations, cameras and lights, too: how each node stands in the node above it
   // while the model rests; empty: as in the file, and for no film.
   std::vector<glm::dmat4> rest{};
+  bool looks_ahead = false;  // a figure is turned until it looks along x, as far as its limbs say where it looks
 };
 
 struct Surface {

@@ -1,5 +1,6 @@
 #include "host/content/importer/orientation.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
@@ -20,6 +21,13 @@ std::string usual_front(const std::string& up) {
 }
 
 }  // namespace
+
+std::string axis_name(const glm::dvec3& vector) {
+  int axis = 0;
+  for (int other = 1; other < 3; ++other)
+    if (std::abs(vector[other]) > std::abs(vector[axis])) axis = other;
+  return std::string(vector[axis] < 0 ? "-" : "") + "xyz"[axis];
+}
 
 glm::dmat3 orientation(const std::string& up, const std::string& front) {
   const glm::dvec3 z = vector_of(up), x = vector_of(front.empty() ? usual_front(up) : front);

@@ -11,4 +11,7 @@ namespace mars::importer {
 // the two are along one axis.
 glm::dmat3 orientation(const std::string& up, const std::string& front);
 
+// The axis that the vector is along: "-y".
+std::string axis_name(const glm::dvec3& vector);
+
 }  // namespace mars::importer

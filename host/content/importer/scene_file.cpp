@@ -23,6 +23,7 @@
 #include "host/content/importer/material_reader.h"
 #include "host/content/importer/model_builder.h"
 #include "host/content/importer/node_tree.h"
+#include "host/content/importer/orientation.h"
 #include "host/content/importer/motions/spindles.h"
 #include "host/content/importer/promised.h"
 #include "host/content/importer/loaded_scene.h"
@@ -149,7 +150,8 @@ class SceneReader {
   void add_joints() {
     const std::vector<bool> shown = shown_nodes();
     bones_ = static_cast<std::size_t>(std::ranges::count(bones(), true));
-    limbs_ = find_limbs(figure_tree(shown), limb_map_of_nodes(), bones_ >= kBonesOfFigures);
+    find_limbs(shown);
+    if (options_.looks_ahead) look_ahead(shown);
     const bool one_root = !tree_.nodes.empty() && tree_.nodes[0].parent == modeler::kNone && shown[0] &&
                           file_.skins->roots.size() == 1 && !has_skins() && !is_skeleton_ && !tree_.nodes[0].is_pivot;
     if (!one_root) builder_.add_joint(options_.joint, modeler::kNone, {});
@@ -168,6 +170,19 @@ class SceneReader {
       if (tree_.nodes[i].number != modeler::kNone) by_number[tree_.nodes[i].number] = joints[i];
     for (const PlacedNode& node : tree_.nodes)
       if (node.skin) add_skinned(node, by_number);
+  }
+
+  void find_limbs(const std::vector<bool>& shown) {
+    limbs_ = importer::find_limbs(figure_tree(shown), limb_map_of_nodes(), bones_ >= kBonesOfFigures);
+  }
+
+  void look_ahead(const std::vector<bool>& shown) {
+    const auto front = front_of(figure_tree(shown), limbs_.limbs);
+    if (!front || front->x == 1) return;
+    looks_along_ = axis_name(glm::transpose(glm::dmat3(upright_)) * *front);
+    const glm::dmat3 ahead(*front, glm::cross(glm::dvec3(0, 0, 1), *front), glm::dvec3(0, 0, 1));
+    upright_ = glm::dmat4(glm::transpose(ahead)) * upright_;
+    find_limbs(shown);
   }
 
   bool has_skins() const {
@@ -424,6 +439,7 @@ class SceneReader {
     add("a skin, which ", file.bones.size(), "joint moves, of ", "joints move, of ");
     if (!file.bones.empty()) file.made.back() += document::counted(skinned_meshes_, "mesh", "meshes");
     if (!limbs_.limbs_made.empty()) file.made.push_back(limbs_.made() + remedy_of_guess());
+    if (!looks_along_.empty()) file.made.push_back("turned to look along x (--front " + looks_along_ + ")");
     add("metallic-roughness of ",
         static_cast<std::size_t>(std::ranges::count_if(
             file.materials, [](const ImportedMaterial& material) { return material.surface.has_value(); })),
@@ -473,7 +489,8 @@ class SceneReader {
   MaterialReader materials_;
   ModelBuilder builder_;
   std::size_t bones_ = 0;
-  FiguresLimbs limbs_;  // of nodes
+  FiguresLimbs limbs_;       // of nodes
+  std::string looks_along_;  // the file's axis, if the figure was turned
   std::vector<NamedLimb> named_limbs_;
   std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, weights_left_out_ = 0, uneven_joints_ = 0;
 };

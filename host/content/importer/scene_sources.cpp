@@ -7,7 +7,8 @@ namespace mars::importer {
 
 namespace fs = std::filesystem;
 
-Assimp::IOStream* SceneSources::Open(const char* name, const char* mode) {
+Assimp::IOStream* SceneSources::Open(const char* called, const char* mode) {
+  const char* name = file_of(called);
   if (mesh_ != name) companion(mesh_, fs::path(name).lexically_relative(folder_).string());
   std::error_code none;
   const fs::file_status status = fs::status(name, none);

@@ -60,7 +60,7 @@ class LimbReader {
       if (before != kNone && !is_at_or_below(joints_, chain[i], before))
         fields.find(names[i])->refuse("is '" + joints_[chain[i]].name + "', which does not hang below the " +
                                           std::string(names[before_name]) + " '" + joints_[before].name + "'",
-                                      "name joints from the body outwards");
+                                      "name joints from the body outwards; mars model MODEL set JOINT --reset limb makes a joint no limb");
       before = chain[i];
       before_name = i;
     }

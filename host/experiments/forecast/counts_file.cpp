@@ -18,7 +18,7 @@
 namespace mars::forecast {
 namespace {
 
-constexpr std::uint32_t kVersion = 1;  // of these files, and of what is counted
+constexpr std::uint32_t kVersion = 2;  // of these files, and of what is counted
 // As .mars files: no text file begins so, and a transfer as text breaks it.
 constexpr std::array<char, 8> kMagic = {'\x89', 'M', 'C', 'N', 'T', '\r', '\n', '\x1a'};
 
@@ -210,7 +210,8 @@ struct TableSurface {
 template <typename Archive, typename Of>
 void pass_surface(Archive& archive, Of& item) {
   auto& surface = item.surface;
-  for (auto* number : {&surface.is_meshlet, &surface.vertices, &surface.triangles_tested, &surface.colored,
+  archive.whole(surface.kind);
+  for (auto* number : {&surface.bent, &surface.vertices, &surface.triangles_tested, &surface.colored,
                        &surface.triangles, &surface.edge_boxes, &surface.first_line})
     archive.whole(*number);
   archive.items(item.lines,
@@ -274,7 +275,7 @@ class Sense {
   bool is_placed(const PlacedSurface& placed) const {
     if (placed.surface >= counts_.surfaces.size()) return false;
     const wire::MadeSurface& surface = counts_.surfaces[placed.surface];
-    return std::uint64_t{surface.first_line} + surface.lines <= height_;
+    return surface.kind <= wire::kLastSurfaceKind && std::uint64_t{surface.first_line} + surface.lines <= height_;
   }
 
   const FilmCounts& counts_;

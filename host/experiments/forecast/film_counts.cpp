@@ -18,7 +18,8 @@ double counting_seconds(const FrameTotals& frame) {
   using wire::Work;
   const wire::UnitCounts& made = frame.made;
   return 5e-4 + (made[Work::patch] + made[Work::meshlet]) * 1e-6 + made[Work::vertex] * 8e-9 +
-         made[Work::mesh_vertex] * 4e-9 + made[Work::triangle_tested] * 5e-9 + made[Work::triangle] * 2e-8 +
+         made[Work::mesh_vertex] * 4e-9 + made[Work::net_term] * 1e-9 + made[Work::skin_weight] * 5e-10 +
+         made[Work::dual_weight] * 2e-9 + made[Work::triangle_tested] * 5e-9 + made[Work::triangle] * 2e-8 +
          made[Work::edge_box_made] * 4e-9 + frame.casters[Work::caster] * 2e-6 +
          frame.casters[Work::diced_vertex] * 8e-9;
 }

@@ -171,8 +171,9 @@ FrameTotals FrameCosts::shared(const FrameTotals& whole, int sharers) const {
   const double rows = made[Work::edge_box_made] / made[Work::triangle] / setting_.film.settings().samples;
   const double height = rows * std::sqrt(made[Work::triangle_tested] / patches / 2) + kBoxMargin;
   const auto part_with = [&](double tall) { return std::min(1.0, most + tall / lines); };
-  for (const Work kind : {Work::patch, Work::meshlet, Work::vertex, Work::mesh_vertex, Work::triangle_tested,
-                          Work::row_tested, Work::vertex_light})
+  for (const Work kind :
+       {Work::patch, Work::meshlet, Work::vertex, Work::mesh_vertex, Work::net_term, Work::skin_weight,
+        Work::dual_weight, Work::triangle_tested, Work::row_tested, Work::vertex_light})
     part.made[kind] = made[kind] * part_with(height);
   part.made[Work::triangle] = made[Work::triangle] * part_with(rows);
   part.made[Work::vertex] += kBoxPoints * patches;
@@ -280,7 +281,8 @@ double FrameCosts::arena_bytes() const {
 double FrameCosts::dicing(const wire::UnitCounts& made) const {
   wire::UnitCounts again = made;
   again[Work::triangle] = again[Work::edge_box_made] = 0;
-  return costs_.of(Work::frame, 1) + costs_.of(Work::segment, static_cast<double>(setting_.film.segments().size())) +
+  return costs_.of(Work::frame, 1) +
+         costs_.of(Work::segment, static_cast<double>(setting_.film.segments().size() + setting_.film.bones().size())) +
          costs_.of(again);
 }
 

@@ -29,7 +29,7 @@ std::vector<int> homes_of_lines(const std::vector<geometry::LineRange>& ranges, 
 // Homes of the lines that the surface's box may touch, each once. A meshlet's box has its corners about half as far
 // out again.
 std::vector<int> homes_near(const wire::MadeSurface& surface, const std::vector<int>& home_of, double box_margin) {
-  const auto margin = static_cast<std::uint32_t>(box_margin / 2) + (surface.is_meshlet != 0 ? surface.lines / 2 : 0);
+  const auto margin = static_cast<std::uint32_t>(box_margin / 2) + (is_meshlet(surface.kind) ? surface.lines / 2 : 0);
   const auto height = static_cast<std::uint32_t>(home_of.size());
   const std::uint32_t first = surface.first_line - std::min(surface.first_line, margin);
   const std::uint32_t last = std::min(height, surface.first_line + surface.lines + margin);

@@ -14,6 +14,12 @@ using wire::Work;
 constexpr double kFullStrip = 512 << 10;  // node/raster/strip_buffer.cpp
 constexpr std::uint32_t kLinesABeat = 4;  // node/renderer.cpp
 
+// The work of which a surface has `bent` units; none of those that do not bend.
+Work bending_of(wire::SurfaceKind kind) {
+  if (kind == wire::SurfaceKind::dual_meshlet) return Work::dual_weight;
+  return is_meshlet(kind) ? Work::skin_weight : Work::net_term;
+}
+
 }  // namespace
 
 KeyframeLoad FrameCosts::load(const KeyframeCounts& counts, const SurfaceTable& surfaces,
@@ -86,9 +92,9 @@ void FrameCosts::add_made(KeyframeLoad& load, const KeyframeCounts& counts, cons
 void FrameCosts::add_diced(wire::UnitCounts& units, const wire::MadeSurface& surface) const {
   const auto samples = static_cast<double>(setting_.film.settings().samples);
   const auto lights = static_cast<double>(lights_);
-  const bool is_meshlet = surface.is_meshlet != 0;
-  units[is_meshlet ? Work::meshlet : Work::patch] += 1;
-  units[is_meshlet ? Work::mesh_vertex : Work::vertex] += surface.vertices;
+  units[is_meshlet(surface.kind) ? Work::meshlet : Work::patch] += 1;
+  units[is_meshlet(surface.kind) ? Work::mesh_vertex : Work::vertex] += surface.vertices;
+  units[bending_of(surface.kind)] += surface.bent;
   units[Work::triangle_tested] += surface.triangles_tested;
   units[Work::row_tested] += surface.triangles_tested * samples;
   units[Work::vertex_light] += surface.colored * lights;

@@ -133,8 +133,8 @@ void add_import(cli::Command app) {
            "The file's axis that points up; it becomes z. Default: z for STL, PLY and .bpt, y for others. Example: "
            "--up -y");
   add_axis(command, "--front", options->front,
-           "The file's axis along which the model looks; it becomes x. Figures in glTF look along z. Default: z "
-           "for motions, else the file's x, if it does not point up or down. Example: --front z");
+           "The file's axis along which the model looks; it becomes x. Default: of a model with limbs, the way they "
+           "look; z for motions; else the file's x, if it does not point up or down. Example: --front z");
   add_size(command, options->size);
   command
       .add("--crease", options->crease,

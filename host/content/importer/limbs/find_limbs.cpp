@@ -1,6 +1,7 @@
 #include "host/content/importer/limbs/find_limbs.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "host/content/document/text.h"
 #include "host/content/importer/limbs/limb_draft.h"
@@ -76,6 +77,18 @@ FiguresLimbs find_limbs(const FigureTree& tree, const std::optional<LimbMap>& ma
   const auto limited = std::ranges::count_if(found.anatomy, [](const auto& each) { return each && each->limits; });
   if (limited > 0) found.limits_made = ", people's limits for " + document::counted(std::size_t(limited), "joint");
   return found;
+}
+
+std::optional<glm::dvec3> front_of(const FigureTree& tree, const modeler::Limbs& limbs) {
+  for (const Limb limb : {Limb::hip, Limb::shoulder}) {
+    const std::size_t left = limbs.of(limb, Side::left), right = limbs.of(limb, Side::right);
+    if (left == kNone || right == kNone) continue;
+    const glm::dvec3 to_left = tree[left].place - tree[right].place;
+    if (to_left.x == 0 && to_left.y == 0) continue;
+    const bool along_x = std::abs(to_left.y) >= std::abs(to_left.x);
+    return along_x ? glm::dvec3(std::copysign(1, to_left.y), 0, 0) : glm::dvec3(0, std::copysign(1, -to_left.x), 0);
+  }
+  return std::nullopt;
 }
 
 }  // namespace mars::importer

@@ -1,6 +1,7 @@
 // Which joints of a file's figure are its limbs: by the file's own map, by names, or by the figure's shape.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,5 +32,8 @@ struct FiguresLimbs {
 // What a map gives counts before names, names (of at most 20,000 joints) before the shape. `may_guess`: whether the
 // shape counts at all.
 FiguresLimbs find_limbs(const FigureTree& tree, const std::optional<LimbMap>& map, bool may_guess);
+
+// Of x, y, -x and -y the one nearest to where the figure looks at rest; none where no two limbs of one kind say it.
+std::optional<glm::dvec3> front_of(const FigureTree& tree, const modeler::Limbs& limbs);
 
 }  // namespace mars::importer

@@ -27,6 +27,10 @@ OPERATIONS = {
     "meshlet": {"multiply": 72, "add": 72, "load": 24, "compare": 12},
     "vertex": costs.OPERATIONS["vertex"],
     "mesh_vertex": costs.OPERATIONS["vertex"],
+    "net_term": {"multiply": 2, "add": 2, "load": 4, "store": 2},  # neighbours share about half of a patch's points
+    "skin_weight": {"multiply": 12, "add": 12, "load": 24, "store": 12},
+    # Eight numbers, turned to the side of the first bone's; and of three bones' blend, a unit and a matrix.
+    "dual_weight": {"multiply": 22, "add": 20, "root": 0.3, "divide": 0.3, "compare": 1, "load": 28, "store": 12},
     "triangle_tested": costs.OPERATIONS["polygon"],
     "row_tested": {"move": 6, "step": 2},  # first and last row between its corners, as integers
     # Planes of 4 values: two steps each, by one division.

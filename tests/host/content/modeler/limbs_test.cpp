@@ -33,7 +33,7 @@ TEST(Limbs, RefuseWhatIsNoJointOrTwiceOrOutOfOrder) {
             "m.json:2: limbs.right.hip: is 'thigh', which is another limb already (name each joint once)");
   EXPECT_EQ(document::failure_of([] { model_with(R"({"left": {"hip": "shin", "knee": "thigh"}})"); }),
             "m.json:2: limbs.left.knee: is 'thigh', which does not hang below the hip 'shin' "
-            "(name joints from the body outwards)");
+            "(name joints from the body outwards; mars model MODEL set JOINT --reset limb makes a joint no limb)");
 }
 
 TEST(Limbs, TheExamplesManHasThemAllButFingersAndTheHorseAllButASpine) {

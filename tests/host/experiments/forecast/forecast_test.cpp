@@ -10,6 +10,7 @@
 #include <tuple>
 #include <vector>
 
+#include "host/experiments/calibration_films.h"
 #include "host/programs/node_counter.h"
 #include "tests/host/experiments/forecast/simulated_film.h"
 
@@ -114,6 +115,34 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
     expect_near(forecast.run.seconds, slow, kWithin, cluster.how);
     EXPECT_GT(slow, cluster.least * simulated(even)) << cluster.how;
     EXPECT_GT(forecast.run.seconds, cluster.least * even.forecast(4, 1).run.seconds) << cluster.how;
+  }
+}
+
+// A film of mars calibrate, as SimulatedFilm takes it.
+std::string calibration_film(const std::string& name) {
+  const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
+  const auto found = std::ranges::find(films, name, &experiments::CalibrationFilm::name);
+  const std::string path = testing::TempDir() + "calibration-" + name;
+  std::ofstream(path + ".json") << found->text;
+  return path;
+}
+
+// Where bending takes a large part of the time.
+TEST(ForecastsOfSkins, AreAsSimulated) {
+  for (const auto& [name, kind] : {std::pair{"nets", wire::Work::net_term},
+                                   {"skins", wire::Work::skin_weight},
+                                   {"duals", wire::Work::dual_weight}}) {
+    SimulatedFilm film(calibration_film(name), "0-5", "fat-tree");
+    const auto seconds_with = [&](double cost) {
+      experiments::Platform platform = film.platform();
+      platform.machine.work[static_cast<std::size_t>(kind)] = cost;
+      film.set_platform(platform);
+      const Forecast forecast = film.forecast(4, 1);
+      const double simulated = film.render(forecast).total_seconds;
+      expect_near(forecast.run.seconds, simulated, kWithin, name);
+      return simulated;
+    };
+    EXPECT_GT(seconds_with(1e-6), 2 * seconds_with(0)) << name;
   }
 }
 

@@ -22,7 +22,7 @@ namespace {
 film::CompiledFilm small_film(const std::string& name, Files files, const std::string& light_patch) {
   film::CompileOptions options;
   options.size = files == Files::none ? std::array<std::uint32_t, 2>{160, 90} : std::array<std::uint32_t, 2>{640, 360};
-  const std::string path = std::string(MARS_SOURCE_DIR) + "/examples/" + name + ".json";
+  const auto path = std::filesystem::path(MARS_SOURCE_DIR) / "examples" / (name + ".json");
   if (light_patch.empty()) return film::load_film(path, options);
   std::ifstream file(path);
   nlohmann::json film = nlohmann::json::parse(file);

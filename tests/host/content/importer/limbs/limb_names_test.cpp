@@ -476,7 +476,38 @@ pelvis
 )",
      "pelvis belly - neck head", "leg_left_upper leg_left_lower foot_left -",
      "arm_left_upper arm_left_lower hand_left -", "leg_right_upper leg_right_lower foot_right -",
-     "arm_right_upper arm_right_lower hand_right -"}};
+     "arm_right_upper arm_right_lower hand_right -"},
+    {"joints with L and R",
+     R"(
+root
+ hips
+  spine01
+   spine02
+    neck01
+     head
+    L_clavicle
+     L_shoulder
+      L_bicep
+       L_elbow
+        L_forearm
+         L_wrist
+          L_index_01
+    R_clavicle
+     R_shoulder
+      R_elbow
+       R_wrist
+  L_hip
+   L_knee_01
+    L_knee_02
+     L_ankle
+      L_toeBall
+  R_hip
+   R_knee_01
+    R_ankle
+     R_toeBall
+)",
+     "hips spine01 spine02 neck01 head", "L_hip L_knee_01 L_ankle L_toeBall", "L_shoulder L_elbow L_wrist -",
+     "R_hip R_knee_01 R_ankle R_toeBall", "R_shoulder R_elbow R_wrist -"}};
 
 void expect_limbs(std::map<std::string, std::string>& expected, const std::string& names,
                   const std::vector<std::string>& limbs) {

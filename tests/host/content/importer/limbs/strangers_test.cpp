@@ -317,7 +317,7 @@ TEST_F(Strangers, MapsOfVrm) {
     const std::string extension = new_version ? "VRMC_vrm" : "VRM";
     rig.glb.json["extensionsUsed"] = {extension};
     rig.glb.json["extensions"][extension]["humanoid"]["humanBones"] = bones;
-    const ImportOptions options = options_for(write("figure.glb", rig.glb.file()));
+    const ImportOptions options = options_for(write(new_version ? "figure.vrm" : "figure.glb", rig.glb.file()));
     const std::string printed = import_model(options);
     EXPECT_NE(printed.find("limbs by the map of " + extension), std::string::npos) << printed;
     EXPECT_NE(printed.find("not found: left.shoulder"), std::string::npos) << printed;
@@ -326,6 +326,18 @@ TEST_F(Strangers, MapsOfVrm) {
     EXPECT_EQ(limbs["head"], "b" + std::to_string(figure.joints.at("head")));
     EXPECT_FALSE(limbs["left"].contains("shoulder"));
   }
+}
+
+TEST_F(Strangers, LookAhead) {
+  ImportOptions options = options_for(write("figure.glb", SkinnedRig(person(ArmsAtRest::t_pose), true).glb.file()));
+  options.front = "z";
+  EXPECT_EQ(import_model(options).find("turned to look"), std::string::npos);
+  const document::Json given = document::read_json(options.to);
+  options.front.clear();
+  options.force = true;
+  const std::string printed = import_model(options);
+  EXPECT_NE(printed.find("turned to look along x (--front z)"), std::string::npos) << printed;
+  EXPECT_EQ(document::read_json(options.to), given);
 }
 
 }  // namespace
