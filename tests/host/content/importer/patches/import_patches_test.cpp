@@ -139,7 +139,7 @@ TEST_F(Patches, DamagedFilesAreFailuresWithTheirLine) {
   EXPECT_TRUE(holds(failure("b.pov", "\nobject { " + pov_patch() + " rotate Unknown }"), "whose value is not known"));
   EXPECT_TRUE(holds(failure("c.pov", "sphere { 0, 1 }"), "has no bicubic patches"));
   EXPECT_TRUE(holds(failure("d.pov", "/* never\n"), "d.pov:1: has a comment without an end"));
-  EXPECT_TRUE(holds(failure("e.pov", std::string(5000, '(')), "e.pov"));
+  EXPECT_TRUE(holds(failure("e.pov", pov_patch("translate " + std::string(5000, '('))), "values, too deep"));
   std::string deep = "#declare T = ";
   for (int i = 0; i < 100'000; ++i) deep += "transform { ";
   EXPECT_TRUE(holds(failure("deep.pov", deep), "deep.pov:1: has transforms within transforms, too deep"));
