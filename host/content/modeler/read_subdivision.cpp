@@ -51,6 +51,15 @@ int read_level(const document::Fields& fields, const Cage& cage) {
   return level;
 }
 
+// Of a skin, as many as nodes take.
+void check_terms(const ControlNet& net, const document::Element& faces) {
+  const auto most = std::ranges::max_element(net.stencils, {}, &wire::Stencil::term_count);
+  if (most->term_count > wire::kMostTerms)
+    faces.refuse("make places of the surface that are means of " + std::to_string(most->term_count) + " points",
+                 "let faces with fewer corners, and fewer of them, meet in a point: a skin's places are means of " +
+                     std::to_string(wire::kMostTerms) + " points at most");
+}
+
 }  // namespace
 
 PatchShape read_subdivision(const document::Element& element) {
@@ -70,6 +79,7 @@ PatchShape read_subdivision(const document::Element& element) {
     std::vector<VertexBones> follows;
     for (const document::Element point : *bones) follows.push_back(read_vertex_bones(point));
     shape.net = control_net(means, points, std::move(follows), points.size());
+    check_terms(*shape.net, faces);
   }
   return shape;
 }
