@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "host/content/modeler/mesh.h"
 #include "host/content/modeler/read_skin_weights.h"
 #include "host/content/modeler/subdivision.h"
 
@@ -21,8 +20,9 @@ std::vector<glm::dvec3> read_cage_points(const document::Element& list) {
 
 std::vector<std::uint32_t> read_face(const document::Element& element, std::uint32_t last) {
   document::require_kind(element, document::Kind::list);
-  if (element.size() < 3 || element.size() > kMostCorners)
-    element.refuse("has " + std::to_string(element.size()) + " points", "write 3 to 4096 numbers of points");
+  if (element.size() < 3 || element.size() > kMostAround)
+    element.refuse("has " + std::to_string(element.size()) + " points",
+                   "write 3 to " + std::to_string(kMostAround) + " numbers of points, or divide the face");
   std::vector<std::uint32_t> face;
   for (const document::Element corner : element) {
     face.push_back(document::read_count(corner, 0, last));
