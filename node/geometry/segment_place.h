@@ -63,7 +63,6 @@ class SegmentPlace {
   bool has_skin() const { return !bones_.matrices.empty(); }
   bool mirrors() const;  // whether it turns shapes inside out; of a skin, whether its first bone does
   // Of a rigid segment.
-  const shape::EyeMatrix& matrix() const { return matrix_; }
   const shape::EyeMap& map() const { return map_; }
   // Of a skin, by number; and EyeSkin::scale, a power of two, with which segments that share vertices give these the
   // same normals.

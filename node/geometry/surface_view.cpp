@@ -133,6 +133,7 @@ void SurfaceView::set_frame(std::uint32_t frame, bool motion) {
     for (std::size_t row = 0; row < 3; ++row) to_world_[axis][row] = static_cast<float>(to_eye[row][axis]);
   frame_ = frame;
   bent_.patch.reset();
+  bent_.segment.reset();
   ways_.clear();
   still_has_moved_ = false;
   if (motion && frame > 0) find_ways(frame);
@@ -214,29 +215,31 @@ void SurfaceView::find_bent(std::uint32_t patch, std::uint32_t segment) const {
   const wire::PackedFilm& film = scene_.film();
   const wire::Segment& of = film.segments()[segment];
   const std::size_t number = patch - scene_.first_patch(segment), patches = film.shape(of.shape).patch_count;
-  const std::pair<std::uint32_t, std::vector<Float3>*> frames[] = {{frame_, &bent_.now}, {frame_ - 1, &bent_.before}};
+  if (bent_.segment != segment) {
+    bent_.segment = segment;
+    put_bones(film, of, frame_, bent_.bones_now);
+    put_bones(film, of, frame_ - 1, bent_.bones_before);
+  }
   if (number < patches) {
     static const std::vector<wire::MeshTriangle> kTriangles = triangles_of_net();
-    for (const auto& [frame, out] : frames) put_patch(of, number, frame, *out);
+    put_patch(of, number, bent_.bones_now, bent_.now);
+    put_patch(of, number, bent_.bones_before, bent_.before);
     bent_.triangles = kTriangles;
     return;
   }
   const wire::Meshlet& meshlet = film.meshlets_of(of.shape)[number - patches];
-  for (const auto& [frame, out] : frames) {
-    put_bones(film, of, frame, bent_.bones);
-    put_moved(film, meshlet.skin, film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count), bent_.bones,
-              *out);
-  }
+  const auto places = film.mesh_places().subspan(meshlet.first_vertex, meshlet.vertex_count);
+  put_moved(film, meshlet.skin, places, bent_.bones_now, bent_.now);
+  put_moved(film, meshlet.skin, places, bent_.bones_before, bent_.before);
   bent_.triangles = film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count);
 }
 
 // Places on a patch of the segment's shape, see put_net().
-void SurfaceView::put_patch(const wire::Segment& segment, std::size_t number, std::uint32_t frame,
+void SurfaceView::put_patch(const wire::Segment& segment, std::size_t number, const EyeBones& bones,
                             std::vector<Float3>& out) const {
   const wire::PackedFilm& film = scene_.film();
-  put_bones(film, segment, frame, bent_.bones);
   bent_.net.start(film);
-  const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bent_.bones); };
+  const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bones); };
   out.resize(wire::kPatchPoints);
   const wire::NetPatch& stencils = film.net_patches_of(segment.shape)[number];
   for (std::size_t point = 0; point < out.size(); ++point) out[point] = bent_.net.bezier(film, stencils[point], move);

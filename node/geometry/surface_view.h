@@ -37,12 +37,12 @@ class SurfaceView {
     float m[3][4]{};
   };
 
-  // A patch or meshlet with a skin as triangles in eye space, now and at the frame before.
+  // A patch or meshlet with a skin as triangles in eye space, now and at the frame before, and its segment's bones.
   struct Bent {
-    std::optional<std::uint32_t> patch;  // its number; none: there is none yet
+    std::optional<std::uint32_t> patch, segment;  // their numbers; none: there is none yet
     std::vector<std::array<float, 3>> now, before;
     std::span<const wire::MeshTriangle> triangles;
-    EyeBones bones;
+    EyeBones bones_now, bones_before;
     NetPoints<float, 3> net;
   };
 
@@ -57,7 +57,7 @@ class SurfaceView {
   void put_normal(const Triangle& triangle, const Place& place, float* normal) const;
   void put_motion(const Triangle& triangle, const Place& place, std::uint32_t segment, float* motion) const;
   void find_bent(std::uint32_t patch, std::uint32_t segment) const;
-  void put_patch(const wire::Segment& segment, std::size_t number, std::uint32_t frame,
+  void put_patch(const wire::Segment& segment, std::size_t number, const EyeBones& bones,
                  std::vector<std::array<float, 3>>& out) const;
   void put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const;
 

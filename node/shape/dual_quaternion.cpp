@@ -12,6 +12,8 @@ struct Axes {
 
 constexpr Axes kNone{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 constexpr double kLeastVolume = 1e-3;  // of axes of length 1
+// Less, so that what is not flat in the world has a turn in eye space too, where the axes are rounded.
+constexpr double kLeastTurned = kLeastVolume / 2;
 constexpr int kMostSteps = 40;
 constexpr double kNear = 1e-14;
 
@@ -59,7 +61,7 @@ double step(Axes& axes) {
 Axes nearest_turn(const wire::Matrix& bone) {
   Axes axes = unit_axes(bone);
   const double all = volume(axes);
-  if (!(std::abs(all) >= kLeastVolume)) return kNone;
+  if (!(std::abs(all) >= kLeastTurned)) return kNone;
   if (all < 0)
     for (auto& row : axes.m)
       for (double& number : row) number = -number;

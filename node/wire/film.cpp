@@ -22,9 +22,9 @@ constexpr double kLargest = 1e12;  // of any number in a film: squares and produ
 
 // clang-format off
 enum Section : std::size_t {
-  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kNetPoints, kStencilTerms,
-  kStencils, kNetPatches, kSkinBones, kSkinWeights, kShapes, kSegments, kBones, kMaterials, kMatrices, kCameras, kLights, kLightTracks, kChanges,
-  kIntervals, kMoving, kNames, kSections
+  kSettings, kPatches, kMeshPlaces, kMeshNormals, kMeshTriangles, kMeshlets, kNetPoints, kStencilTerms, kStencils,
+  kNetPatches, kSkinBones, kSkinWeights, kShapes, kSegments, kBones, kMaterials, kMatrices, kCameras, kLights,
+  kLightTracks, kChanges, kIntervals, kMoving, kNames, kSections
 };
 // clang-format on
 

@@ -50,8 +50,7 @@ wire::FilmData moment_of(const animator::Film& film, const ShapeNumbers& shapes,
       for (std::size_t number = 0; number < state.bones[joint].size(); ++number) {
         const wire::Matrix& bone = state.bones[joint][number];
         check_near(bone, film, actor, joint, frame);
-        if (!film.actors[actor].matrices.empty())
-          check_volume(bone, film, actor, joint, film.model_of(actor).joints[joint].segment->bones[number], frame);
+        check_volume(bone, film, actor, joint, film.model_of(actor).joints[joint].segment->bones[number], frame);
         data.bones[of_bones.size()] = stand(data.segments.size() + of_bones.size());
         of_bones.push_back(bone);
       }

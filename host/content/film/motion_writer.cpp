@@ -305,7 +305,6 @@ class MotionWriter {
             writing.bone != nullptr
                 ? modeler::bone_matrix(modeler::joint_frame(key.value, moved_by), *writing.bone, joint)
                 : modeler::t_matrix(key.value, joint.segment->sbb);
-        if (writing.bone != nullptr) check_volume(matrix, film_, number, writing.joint, *writing.bone, key.frame);
         add(number, share, writing, key.frame, matrix);
       }
     }
@@ -314,6 +313,7 @@ class MotionWriter {
   void add(std::size_t actor, Share& share, Writing& writing, std::uint32_t frame, const wire::Matrix& matrix) {
     if (writing.count > 0 && matrix == matrices_[writing.changes[writing.count - 1].value]) return;
     check_near(matrix, film_, actor, writing.joint, frame);
+    if (writing.bone != nullptr) check_volume(matrix, film_, actor, writing.joint, *writing.bone, frame);
     check(writing.count < share.most[writing.number], "a segment moves as often as was planned");
     const std::size_t place = share.first_matrix + share.matrices++;
     matrices_[place] = matrix;
@@ -351,10 +351,6 @@ class MotionWriter {
   std::size_t most_matrices_ = 0;
   wire::Matrix* matrices_ = nullptr;
 };
-
-}  // namespace
-
-namespace {
 
 std::string place_of(const animator::Film& film, std::size_t actor, std::size_t joint, std::uint32_t frame) {
   return (film.source.empty() ? "" : film.source + ": ") + film.actors[actor].name + "/" +

@@ -289,28 +289,27 @@ Object direction() {
 }
 
 Object subdivision() {
-  return {
-      "subdivision",
-      "",
-      {{.name = "points",
-        .type = "vertices",
-        .meaning = "the cage's points `[x, y, z]` within 0 to 1",
-        .required = true},
-       {.name = "faces",
-        .type = "faces",
-        .meaning = "lists of numbers of different points, counted from 0, counter-clockwise as seen from outside, best "
-                   "quads; an edge belongs to one face or two",
-        .required = true},
-       {.name = "level",
-        .type = "whole",
-        .meaning = "how often each face is divided before a patch is made of each part; 0 for quads alone",
-        .number = 1,
-        .range = {0, 3}},
-       {.name = "bones",
-        .type = "vertex_bones",
-        .meaning = "of a skin: for each point 1 to 4 pairs `[bone, weight, ...]`, as a mesh has them",
-        .see = "model-format.md#skins",
-        .without = "none: the surface is rigid"}}};
+  return {"subdivision",
+          "",
+          {{.name = "points",
+            .type = "vertices",
+            .meaning = "the cage's points `[x, y, z]` within 0 to 1",
+            .required = true},
+           {.name = "faces",
+            .type = "faces",
+            .meaning = "lists of 3 to 64 numbers of different points, counted from 0, counter-clockwise as seen from "
+                       "outside, best quads; an edge belongs to one face or two, a point to 64 faces at most",
+            .required = true},
+           {.name = "level",
+            .type = "whole",
+            .meaning = "how often each face is divided before a patch is made of each part; 0 for quads alone",
+            .number = 1,
+            .range = {0, 3}},
+           {.name = "bones",
+            .type = "vertex_bones",
+            .meaning = "of a skin: for each point 1 to 4 pairs `[bone, weight, ...]`, as a mesh has them",
+            .see = "model-format.md#skins",
+            .without = "none: the surface is rigid"}}};
 }
 
 Object mesh() {

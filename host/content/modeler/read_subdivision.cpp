@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "host/content/modeler/mesh.h"
 #include "host/content/modeler/read_skin_weights.h"
 #include "host/content/modeler/subdivision.h"
 
@@ -21,8 +20,9 @@ std::vector<glm::dvec3> read_cage_points(const document::Element& list) {
 
 std::vector<std::uint32_t> read_face(const document::Element& element, std::uint32_t last) {
   document::require_kind(element, document::Kind::list);
-  if (element.size() < 3 || element.size() > kMostCorners)
-    element.refuse("has " + std::to_string(element.size()) + " points", "write 3 to 4096 numbers of points");
+  if (element.size() < 3 || element.size() > kMostAround)
+    element.refuse("has " + std::to_string(element.size()) + " points",
+                   "write 3 to " + std::to_string(kMostAround) + " numbers of points, or divide the face");
   std::vector<std::uint32_t> face;
   for (const document::Element corner : element) {
     face.push_back(document::read_count(corner, 0, last));
@@ -51,6 +51,15 @@ int read_level(const document::Fields& fields, const Cage& cage) {
   return level;
 }
 
+// Of a skin, as many as nodes take.
+void check_terms(const ControlNet& net, const document::Element& faces) {
+  const auto most = std::ranges::max_element(net.stencils, {}, &wire::Stencil::term_count);
+  if (most->term_count > wire::kMostTerms)
+    faces.refuse("make places of the surface that are means of " + std::to_string(most->term_count) + " points",
+                 "let faces with fewer corners, and fewer of them, meet in a point: a skin's places are means of " +
+                     std::to_string(wire::kMostTerms) + " points at most");
+}
+
 }  // namespace
 
 PatchShape read_subdivision(const document::Element& element) {
@@ -70,6 +79,7 @@ PatchShape read_subdivision(const document::Element& element) {
     std::vector<VertexBones> follows;
     for (const document::Element point : *bones) follows.push_back(read_vertex_bones(point));
     shape.net = control_net(means, points, std::move(follows), points.size());
+    check_terms(*shape.net, faces);
   }
   return shape;
 }

@@ -321,6 +321,11 @@ std::optional<CageFault> fault_of(const Cage& cage) {
   for (std::uint32_t point = 0; point < cage.points; ++point) {
     const Around& around = topology.around(point);
     if (around.faces.empty()) return CageFault{{}, point, "belongs to no face", "take it out"};
+    if (around.faces.size() > kMostAround)
+      return CageFault{{},
+                       point,
+                       "joins " + std::to_string(around.faces.size()) + " faces",
+                       "let " + std::to_string(kMostAround) + " faces at most meet in a point"};
     if (!is_one_fan(topology, around))
       return CageFault{{}, point, "joins faces that share no edge in it", "give each of its sides a point of its own"};
   }

@@ -16,8 +16,9 @@ namespace mars::modeler {
 
 inline constexpr int kMostLevels = 3;
 inline constexpr std::size_t kMostCagePatches = 1'000'000;
+inline constexpr std::size_t kMostAround = 64;  // corners of a face, faces that meet in a point: time grows as its cube
 
-// Faces are numbers of points, counter-clockwise as seen from outside, each with 3 or more different ones.
+// Faces are numbers of points, counter-clockwise as seen from outside, each with 3 to kMostAround different ones.
 struct Cage {
   std::size_t points = 0;
   std::vector<std::vector<std::uint32_t>> faces;

@@ -143,7 +143,7 @@ TEST(FilmDamage, DamagedHeaderIsRefused) {
     EXPECT_THROW(PackedFilm(block, "film", true), Failure);
   }
   for (const std::uint64_t bad : {std::uint64_t{1}, std::uint64_t{1} << 40, ~std::uint64_t{63}, ~std::uint64_t{0}}) {
-    for (std::size_t at = 16; at < 16 + 20 * 16; at += 16) {  // each section's offset
+    for (std::size_t at = 16; at < 16 + 24 * 16; at += 16) {  // each section's offset
       Block block = whole;
       std::memcpy(&block[at], &bad, sizeof bad);
       EXPECT_FALSE(taken(block)) << "offset " << bad << " of section " << at / 16 - 1;

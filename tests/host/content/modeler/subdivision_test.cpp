@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <numeric>
 
 #include "host/content/modeler/bspline.h"
@@ -187,6 +188,13 @@ TEST(Subdivision, NamesFaults) {
   ++lonely.points;
   EXPECT_EQ(problem(lonely), "belongs to no face");
   EXPECT_EQ(problem({7, {{0, 1, 2, 3}, {3, 4, 5, 6}}}), "joins faces that share no edge in it");
+  const auto cone = [](std::uint32_t sides) {
+    Cage cage{sides + 1, {}};
+    for (std::uint32_t side = 0; side < sides; ++side) cage.faces.push_back({side, (side + 1) % sides, sides});
+    return cage;
+  };
+  EXPECT_EQ(problem(cone(kMostAround)), "");
+  EXPECT_EQ(problem(cone(kMostAround + 1)), "joins 65 faces");
 }
 
 // A pole of a loft, whose control points are one at rest, stays one.
