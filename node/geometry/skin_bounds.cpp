@@ -8,9 +8,10 @@ namespace mars::geometry {
 namespace {
 
 // Of a blended place, or a mean of such, relative to the largest of what is added up to it, at most: single precision
-// rounds some ten times on the way, of dual quaternions some forty times, and once for each of a stencil's terms.
+// rounds some ten times on the way, of dual quaternions some forty times, and once for each of a stencil's terms; and
+// sums of weights are not quite 1.
 constexpr double kBlendRounding = 1.0 / (1 << 15);
-static_assert((wire::kMostTerms + 100.0) / (1 << 24) < kBlendRounding);
+static_assert((wire::kMostTerms + 100.0) / (1 << 24) + 2 * wire::kWeightRounding < kBlendRounding);
 
 constexpr double kUnbounded = std::numeric_limits<double>::max();
 

@@ -69,11 +69,35 @@ Hull corners_of(const Place& low, const Place& high) {
   return corners;
 }
 
-// A skin's bones in the world; `skin` is where they are put.
+// Where the camera is in the world.
+Point eye_of(const wire::Camera& camera) {
+  const auto& m = camera.world_to_eye.m;
+  Point eye{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t r = 0; r < 3; ++r) eye[a] -= m[r][a] * m[r][3];
+  return eye;
+}
+
+// A skin's bones, along the world's axes from the camera; `skin` is where they are put. Nodes blend in eye space: where
+// the sum of a point's weights is not quite 1, the point goes a little towards the camera, here too.
 void find_bones(const Scene& scene, const wire::Segment& segment, std::uint32_t frame, SkinBounds& skin) {
   const wire::PackedFilm& film = scene.film();
+  const Point eye = eye_of(film.camera_at(frame));
   skin.begin(segment.blend, scene.most_bones());
-  for (const wire::Track& bone : film.bones_of(segment)) skin.add(film.matrix_at(bone, frame));
+  for (const wire::Track& track : film.bones_of(segment)) {
+    wire::Matrix bone = film.matrix_at(track, frame);
+    for (std::size_t r = 0; r < 3; ++r) bone.m[r][3] -= eye[r];
+    skin.add(bone);
+  }
+}
+
+Point from_eye(const double* place, const Point& eye) {
+  return {place[0] + eye[0], place[1] + eye[1], place[2] + eye[2]};
+}
+
+// In the world.
+Hull corners_of(const SkinBounds::Box& box, const Point& eye) {
+  return corners_of(from_eye(box.low, eye), from_eye(box.high, eye));
 }
 
 // Where a segment's whole shape is in the world. `skin`: room for bones.
@@ -82,8 +106,7 @@ Hull whole_of(const Scene& scene, const wire::Segment& segment, std::uint32_t fr
   const ShapeBoxes::Box& all = boxes.of(segment.shape);
   if (segment.bone_count == 0) return moved(scene.film().matrix_at(segment, frame), corners_of(all.low, all.high));
   find_bones(scene, segment, frame, skin);
-  const SkinBounds::Box box = skin.round(boxes, segment.shape);
-  return corners_of(box.low, box.high);
+  return corners_of(skin.round(boxes, segment.shape), eye_of(scene.film().camera_at(frame)));
 }
 
 // What of the picture a hull in eye space may be on.
@@ -247,24 +270,25 @@ class Pieces {
   void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
     SkinBounds& bones = scratch_.bones;
     find_bones(scene_, segment, frame, bones);
+    const Point eye = eye_of(film_.camera_at(frame));
     scratch_.net.start(film_);
-    for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch));
+    for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch, eye));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
       const SkinBounds::Box box = bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high,
                                               pairs_of(film_, meshlet, scene_.bone_pairs()));
-      visit(corners_of(box.low, box.high));
+      visit(corners_of(box, eye));
     }
   }
 
   // Of the patch's points, or, where some of them may be at several places, of the box round all these.
-  Hull hull_of(const wire::NetPatch& patch) {
+  Hull hull_of(const wire::NetPatch& patch, const Point& eye) {
     Hull points;
     Box all;
     bool in_doubt = false;
     const auto move = [&](const wire::NetPoint& point) { return both_ends(scratch_.bones.round(film_, point)); };
     for (const std::uint32_t stencil : patch) {
       const auto& box = scratch_.net.bezier(film_, stencil, move);
-      const Point low{box[0], box[1], box[2]}, high{box[3], box[4], box[5]};
+      const Point low = from_eye(box.data(), eye), high = from_eye(box.data() + 3, eye);
       points.add(low);
       all.add(low), all.add(high);
       in_doubt |= low != high;

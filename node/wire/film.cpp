@@ -79,9 +79,6 @@ bool is_light(const std::array<float, 3>& color) {
   return std::ranges::all_of(color, [](float channel) { return channel >= 0 && channel <= kMostLight; });
 }
 
-constexpr double kWeightRounding = 1e-6;  // of a point's weights, from 1
-constexpr double kMeanRounding = 1e-5;    // of a stencil's
-
 bool is_share(float number) { return number >= 0 && number <= 1; }
 
 // Whether `size` pixels from `first` on lie within `whole` ones and kMostMargin on either side.
@@ -356,7 +353,7 @@ void PackedFilm::check_nets(const std::string& where) const {
       require(term.point < net_points_.size() && term.point > last && term.weight > 0, where, "a term is out of range");
       sum += term.weight, last = term.point;
     }
-    require(std::abs(sum - 1) <= kMeanRounding, where, "a stencil's weights do not add up to 1");
+    require(std::abs(sum - 1) <= kWeightRounding, where, "a stencil's weights do not add up to 1");
   }
   for (const NetPatch& patch : net_patches_)
     for (const std::uint32_t stencil : patch)

@@ -51,6 +51,7 @@ struct Skin {
 };
 
 inline constexpr std::uint32_t kMostPointBones = 4;
+inline constexpr double kWeightRounding = 1e-6;  // of the sum of a point's weights, and of a mean's, from 1
 inline constexpr std::uint32_t kPatchPoints = 16;
 inline constexpr std::uint32_t kMeshletBones = 16;
 static_assert(kMeshletBones >= 3 * kMostPointBones);  // any triangle has room

@@ -82,6 +82,29 @@ TEST(Skins, AreDrawnAsByThePlainTwin) {
   }
 }
 
+// The same film, elsewhere in the world.
+wire::FilmData far_away(wire::FilmData film) {
+  constexpr double kFar[] = {1e7, -2e7, 0};
+  for (wire::Matrix& matrix : film.matrices)
+    for (int r = 0; r < 3; ++r) matrix.m[r][3] += kFar[r];
+  for (wire::Camera& camera : film.cameras)
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) camera.world_to_eye.m[r][3] -= camera.world_to_eye.m[r][c] * kFar[c];
+  for (wire::Light& light : film.lights)
+    for (std::size_t axis = 0; axis < 3 && light.kind != wire::LightKind::directional; ++axis)
+      light.vector[axis] += kFar[axis];
+  return film;
+}
+
+// Where sums of weights are not quite 1, bones move points by a part of the way to the origin of the space in which
+// they are blended: that of a sweep is the nodes'.
+TEST(Skins, AreTheSameBitsFarFromTheWorldsOrigin) {
+  for (const wire::Blend blend : kBlends) {
+    const wire::FilmData film = far_away(small_bending(blend));
+    expect_same(run_film(FilmBlock(film).bytes(), {}), from_scratch(film), film.settings, name_of(blend) + "-far");
+  }
+}
+
 TEST(Skins, HoldStillUntilABoneMoves) {
   const wire::FilmData film = bending(64, 40, 4, 4);
   ASSERT_EQ(film.intervals.size(), 1u);

@@ -261,8 +261,9 @@ std::map<std::string, std::size_t> of_horse() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Examples, FiguresBend,
-                         testing::Values(std::tuple{"human.json", kOfMan}, std::tuple{"stout.json", kOfMan},
-                                         std::tuple{"dog.json", kOfDog}, std::tuple{"horse.json", of_horse()}));
+                         testing::Values(std::tuple{"human.json", kOfMan}, std::tuple{"child.json", kOfMan},
+                                         std::tuple{"stout.json", kOfMan}, std::tuple{"dog.json", kOfDog},
+                                         std::tuple{"horse.json", of_horse()}));
 
 }  // namespace
 }  // namespace mars::modeler
