@@ -117,6 +117,7 @@ ImportedText import_patches(const ImportOptions& options, FileKind kind, const S
                       box_text(box.max - box.min, factor, kind, stance),
                       {document::counted(scene.patches.size(), "patch", "patches")},
                       {},
+                      {},
                       skipped_text(scene)};
   const auto given = std::ranges::count_if(colors, [](const OneColor& each) { return each.color.has_value(); });
   if (given > 0) report.read.push_back(document::counted(static_cast<std::size_t>(given), "colour", "colours"));
