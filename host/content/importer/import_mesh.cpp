@@ -95,8 +95,7 @@ document::LongText model_text_of(MeshFile& file) {
 }
 
 ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance) {
-  return {"", box_text(file.extent, file.factor, kind, stance), read_of(file), file.made, kept_of(file),
-          file.not_read};
+  return {"", box_text(file.extent, file.factor, kind, stance), read_of(file), file.made, kept_of(file), file.not_read};
 }
 
 ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {

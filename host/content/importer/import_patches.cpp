@@ -24,6 +24,7 @@ ImportedText import_bpt(const ImportOptions& options, FileKind kind, const Stanc
            box_text(file.extent, factor, kind, stance),
            {document::counted(file.patches.size(), "patch", "patches")},
            {},
+           {},
            {}},
           model_text({{options.joint, "", {}, false, WrittenSegment{shape_text(file.patches), file.bounds, {}}}}, {})};
 }

@@ -55,11 +55,13 @@ std::string reason_in_our_words(std::string_view message) {
 
 // No steps of Assimp's own but its check of indices: joining, splitting and smoothing are ours. What turns FBX's nodes
 // about points of their own stays in nodes of its own, for Assimp's animations of one node would lose it.
-LoadedScene::LoadedScene(const std::filesystem::path& path)
-    : path_(path), sources_(handed_over(std::make_unique<SceneSources>(path))) {
+LoadedScene::LoadedScene(const std::filesystem::path& path, std::string unpacked)
+    : path_(path),
+      name_(unpacked.empty() ? path.string() : SceneSources::unpacked_name(path)),
+      sources_(handed_over(std::make_unique<SceneSources>(path, std::move(unpacked)))) {
   importer_.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   importer_.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  scene_ = importer_.ReadFile(path.string(), aiProcess_ValidateDataStructure);
+  scene_ = importer_.ReadFile(name_, aiProcess_ValidateDataStructure);
   if (scene_ == nullptr || scene_->mRootNode == nullptr) refuse();
 }
 

@@ -25,7 +25,11 @@ class MaterialReader {
   // `images_folder` as in MeshOptions.
   MaterialReader(const std::filesystem::path& path, FileKind kind, const aiScene& scene,
                  const std::string& images_folder)
-      : kind_(kind), scene_(scene), textures_(path, kind, scene), means_(textures_), images_(images_folder, textures_) {}
+      : kind_(kind),
+        scene_(scene),
+        textures_(path, kind, scene),
+        means_(textures_),
+        images_(images_folder, textures_) {}
 
   // The number, among materials(), of what the mesh's material becomes; none where the file gives it none. Materials
   // that become the same are one.

@@ -47,8 +47,8 @@ class MeshBuilder {
     glm::dvec3 at_rest;
   };
 
-  // What add_face() calls a corner of the part: at a vertex given in the joint's axes and the file's units. Either all of
-  // the joint's vertices follow bones or none does.
+  // What add_face() calls a corner of the part: at a vertex given in the joint's axes and the file's units. Either all
+  // of the joint's vertices follow bones or none does.
   std::uint32_t corner(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal,
                        const Follows* follows = nullptr, const CornerPaint& paint = {});
 

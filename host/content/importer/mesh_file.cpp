@@ -27,10 +27,9 @@ MeshFile read_ply(const std::filesystem::path& path, const MeshOptions& options)
     for (face.clear(); c < ply.ends[f]; ++c) {
       const std::uint32_t corner = ply.corners[c];
       if (numbers[corner] == kNew)
-        numbers[corner] =
-            mesh.corner(part, options.upright * ply.places[corner],
-                        ply.normals.empty() ? glm::dvec3(0) : options.upright * ply.normals[corner], nullptr,
-                        paint_of(ply, corner));
+        numbers[corner] = mesh.corner(part, options.upright * ply.places[corner],
+                                      ply.normals.empty() ? glm::dvec3(0) : options.upright * ply.normals[corner],
+                                      nullptr, paint_of(ply, corner));
       face.push_back(numbers[corner]);
     }
     mesh.add_face(part, face);

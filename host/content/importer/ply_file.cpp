@@ -89,10 +89,10 @@ struct VertexLayout {
 
 // The number that stands for all of a colour's part; 0: none does.
 double whole_of(PlyType type) {
-  return type == PlyType::uint8                                   ? 255
-         : type == PlyType::uint16                                ? 65535
+  return type == PlyType::uint8                                 ? 255
+         : type == PlyType::uint16                              ? 65535
          : type == PlyType::float32 || type == PlyType::float64 ? 1
-                                                                  : 0;
+                                                                : 0;
 }
 
 std::vector<std::string_view> names_of(const VertexLayout& layout) {

@@ -15,7 +15,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/assimp_matrix.h"
-#include "host/content/importer/gltf/gltf_bounds.h"
+#include "host/content/importer/gltf/unpacked_gltf.h"
 #include "host/content/importer/gltf_limbs.h"
 #include "host/content/importer/gltf_skins.h"
 #include "host/content/importer/joint_frame.h"
@@ -52,16 +52,22 @@ constexpr std::size_t kBonesOfFigures = 8;  // at least: a spine and two legs th
 // What the file says without Assimp.
 struct FileItself {
   FileItself(const std::filesystem::path& path, FileKind kind) {
-    const std::string bytes = document::read_file(path, kLargestMeshFile);
+    std::string bytes = document::read_file(path, kLargestMeshFile);
     if (kind == FileKind::glb && bytes.size() >= 4 && !bytes.starts_with("glTF"))
       throw Failure("is no GLB file: it does not begin with glTF", path.string(), "name it by what it is");
     Tree gltf;
-    if (is_gltf(kind)) gltf = gltf_json(bytes);
-    require_within_buffers(path, gltf);
+    if (is_gltf(kind)) {
+      GltfBytes given = gltf_bytes(path, std::move(bytes));
+      bytes = std::move(given.bytes);
+      gltf = std::move(given.gltf);
+      if (given.unpacked) unpacked = bytes;
+    }
     promised = promised_by(path, kind, bytes, gltf);
     if (is_gltf(kind)) skins = gltf_skins(path, gltf);
     limbs = limb_map(gltf);
   }
+
+  std::string unpacked;  // a GLB in place of the file; "": Assimp can read that itself
 
   Promised promised;
   std::optional<GltfSkins> skins;  // of scenes; FBX's and COLLADA's are known when Assimp has read them
@@ -76,7 +82,7 @@ class SceneReader {
         options_(options),
         upright_(options.upright),
         file_(path, kind),
-        loaded_(path),
+        loaded_(path, std::move(file_.unpacked)),
         scene_(loaded_.scene()),
         is_skeleton_(is_skeleton()),
         tree_(node_tree(path, scene_, skins(), options.rest)),

@@ -16,10 +16,10 @@ namespace mars::importer {
 inline constexpr std::uintmax_t kLargestPicture = std::uintmax_t{1} << 28;
 
 struct SceneTexture {
-  std::string name;             // "picture 2", "skin.png": for people
-  std::string_view bytes;       // of a picture within the file, as long as the scene
-  std::filesystem::path from;   // where it is not within: the file beside it, which is there
-  std::string file_name;        // as the file calls it; "": it does not
+  std::string name;            // "picture 2", "skin.png": for people
+  std::string_view bytes;      // of a picture within the file, as long as the scene
+  std::filesystem::path from;  // where it is not within: the file beside it, which is there
+  std::string file_name;       // as the file calls it; "": it does not
 };
 
 class SceneTextures {
@@ -27,8 +27,8 @@ class SceneTextures {
   SceneTextures(std::filesystem::path mesh, FileKind kind, const aiScene& scene)
       : mesh_(std::move(mesh)), kind_(kind), scene_(scene) {}
 
-  // The picture that a material names `texture`: "*2" is a picture within the file, else it is a file's path. None where
-  // it is not there, or no picture's file but colours of pixels.
+  // The picture that a material names `texture`: "*2" is a picture within the file, else it is a file's path. None
+  // where it is not there, or no picture's file but colours of pixels.
   std::optional<SceneTexture> find(const std::string& texture) const;
 
  private:

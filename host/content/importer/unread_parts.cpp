@@ -53,7 +53,8 @@ void add_material(const aiMaterial& material, const MaterialReader& materials, C
     for (unsigned i = 0; i < material.GetTextureCount(static_cast<aiTextureType>(type)); ++i) {
       aiString path;
       material.GetTexture(static_cast<aiTextureType>(type), i, &path);
-      if (!materials.means().has(path.C_Str()) && !materials.images().has(path.C_Str())) counts.textures.insert(path.C_Str());
+      if (!materials.means().has(path.C_Str()) && !materials.images().has(path.C_Str()))
+        counts.textures.insert(path.C_Str());
     }
   if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME) || material.GetName().length == 0) return;
   counts.glosses += shines(material);

@@ -38,7 +38,8 @@ constexpr Type kModelTypes[] = {
      R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 3, "maxItems": 3,
          "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}}})",
      ""},
-    {"uv", R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": "#coordinate"}})",
+    {"uv",
+     R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": "#coordinate"}})",
      ""},
     {"vertex_colors",
      R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 3, "maxItems": 4,
@@ -348,19 +349,19 @@ Object mesh() {
         .type = "uv",
         .meaning = "kept, not shown: for each vertex its place `[u, v]` in images, from 0 to 1 rightward and upward "
                    "from an image's lower left corner, beyond that in copies of it",
-        .see = "importing.md#what-is-kept",
+        .see = "importing-materials.md#what-is-kept",
         .without = "none"},
        {.name = "colors",
         .type = "vertex_colors",
         .meaning = "kept, not shown: for each vertex its colour, `[red, green, blue]` as materials have it, or with "
                    "its alpha",
-        .see = "importing.md#what-is-kept",
+        .see = "importing-materials.md#what-is-kept",
         .without = "none"},
        {.name = "paint_faces",
         .type = "faces",
         .meaning = "where vertices have several of them: for each face, for each of its corners a number of a row of "
                    "`uv` and of `colors`, counted from 0",
-        .see = "importing.md#what-is-kept",
+        .see = "importing-materials.md#what-is-kept",
         .without = "the numbers in `faces`"}}};
 }
 
@@ -461,7 +462,7 @@ std::vector<Key> material_keys() {
   keys.push_back({.name = "images",
                   .type = "images",
                   .meaning = "kept, not shown: images of the surface, which `uv` of a mesh places",
-                  .see = "importing.md#what-is-kept",
+                  .see = "importing-materials.md#what-is-kept",
                   .without = "none",
                   .typed = false,
                   .example = R"({"color": "rock-images/stone.png"})"});
@@ -479,9 +480,8 @@ std::vector<Object> make_model_objects() {
                   .meaning = "How a surface looks. A number that its reflection does not use is an error.",
                   .keys = material_keys(),
                   .example = kMaterialExample};
-  return {model(),   joint(),   limits(),    segment(),     skin(), limbs(),       side(),
-          surface(), bspline(), direction(), subdivision(), mesh(), proportions(), material,
-          images()};
+  return {model(),   joint(),     limits(),      segment(), skin(),        limbs(),  side(),  surface(),
+          bspline(), direction(), subdivision(), mesh(),    proportions(), material, images()};
 }
 
 std::span<const Type> model_types() { return kModelTypes; }
