@@ -145,7 +145,7 @@ class Unpacker {
   }
 
   void put(Tree& view, const std::string& bytes) {
-    view["buffer"] = 0;
+    view["buffer"] = 0u;
     view["byteOffset"] = blob_.size();
     view["byteLength"] = bytes.size();
     blob_ += bytes;

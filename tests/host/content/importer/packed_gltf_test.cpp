@@ -39,14 +39,14 @@ test::Glb square(int places, int normals, int uv, int indices, test::Glb glb) {
   return glb;
 }
 
-const std::vector<std::uint8_t> kCorners{0, 1, 2, 0, 2, 3};
-const std::vector<float> kNormals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, kUv{0, 0, 1, 0, 1, 1, 0, 1};
+const std::vector<std::uint8_t> kSquareCorners{0, 1, 2, 0, 2, 3};
+const std::vector<float> kSquareNormals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, kSquareUv{0, 0, 1, 0, 1, 1, 0, 1};
 
 test::Glb plain_square(float side) {
   test::Glb glb;
   const int places = glb.floats("VEC3", {0, 0, 0, side, 0, 0, side, side, 0, 0, side, 0}),
-            normals = glb.floats("VEC3", kNormals), uv = glb.floats("VEC2", kUv);
-  const int corners = glb.bytes("SCALAR", kCorners);
+            normals = glb.floats("VEC3", kSquareNormals), uv = glb.floats("VEC2", kSquareUv);
+  const int corners = glb.bytes("SCALAR", kSquareCorners);
   return square(places, normals, uv, corners, std::move(glb));
 }
 
@@ -56,7 +56,7 @@ test::Glb quantized_square(std::int16_t side, bool normalized) {
   const int places = glb.shorts("VEC4", {0, 0, 0, 0, side, 0, 0, 0, side, side, 0, 0, 0, side, 0, 0}),
             normals = glb.bytes("VEC4", {0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0, 0, 0, 127, 0}),
             uv = glb.shorts("VEC2", {0, 0, 32767, 0, 32767, 32767, 0, 32767});
-  const int corners = glb.bytes("SCALAR", kCorners);
+  const int corners = glb.bytes("SCALAR", kSquareCorners);
   json& accessors = glb.json["accessors"];
   for (const int each : {places, normals}) {
     accessors[each]["type"] = "VEC3";
@@ -112,7 +112,7 @@ int packed_accessor(test::Glb& glb, const Packed& packed, json accessor) {
 
 test::Glb meshopt_square() {
   test::Glb glb;
-  const std::array<float, 12> places{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, normals{0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0};
+  const std::array<float, 12> places{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
   std::array<std::uint32_t, 12> exponents{};
   meshopt_encodeFilterExp(exponents.data(), 4, 12, 15, places.data());
   const std::array<float, 16> up{0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0};
@@ -126,7 +126,7 @@ test::Glb meshopt_square() {
                                  {{"componentType", 5126}, {"count", 4}, {"type", "VEC3"}}),
             normal = packed_accessor(glb, {"ATTRIBUTES", "OCTAHEDRAL", 4, 4, packed_vertices(octahedral.data(), 4, 4)},
                                      {{"componentType", 5120}, {"normalized", true}, {"count", 4}, {"type", "VEC3"}}),
-            uv = packed_accessor(glb, {"ATTRIBUTES", "NONE", 4, 8, packed_vertices(kUv.data(), 4, 8)},
+            uv = packed_accessor(glb, {"ATTRIBUTES", "NONE", 4, 8, packed_vertices(kSquareUv.data(), 4, 8)},
                                  {{"componentType", 5126}, {"count", 4}, {"type", "VEC2"}}),
             indices = packed_accessor(glb, {"TRIANGLES", "NONE", 6, 2, triangles},
                                       {{"componentType", 5123}, {"count", 6}, {"type", "SCALAR"}});
