@@ -8,21 +8,9 @@
 namespace mars::importer {
 namespace {
 
-constexpr std::size_t kNumberOfFloats = 5126;
-
 std::string name_of(const Tree& named) {
   const Tree& name = at(named, "name");
   return name.is_string() ? name.get<std::string>() : "";
-}
-
-// Assimp takes bytes and shorts for floats without a word.
-void refuse_packed_weights(const std::filesystem::path& path, const Tree& gltf, const Tree& mesh) {
-  for (const Tree& primitive : at(mesh, "primitives"))
-    for (const char* weights : {"WEIGHTS_0", "WEIGHTS_1"}) {
-      const Tree& accessor = item(at(gltf, "accessors"), at(at(primitive, "attributes"), weights));
-      if (!accessor.is_null() && number(at(accessor, "componentType"), 0) != kNumberOfFloats)
-        throw Failure("has a skin whose weights are no floats", path.string(), "export its weights as floats");
-    }
 }
 
 // Assimp crashes where a skin has no matrices, and gives a mesh under two skins the bones of one.
@@ -32,7 +20,6 @@ void refuse_skin(const std::filesystem::path& path, const Tree& gltf, const Tree
   if (item(at(gltf, "accessors"), matrices).is_null())
     throw Failure("has a skin without inverse bind matrices", path.string(), "export it with them, as Blender does");
   const Tree& mesh = at(node, "mesh");
-  refuse_packed_weights(path, gltf, item(at(gltf, "meshes"), mesh));
   const auto [other, is_new] = skin_of_mesh.try_emplace(number(mesh, 0), matrices);
   if (!is_new && other->second != matrices)
     throw Failure("has a mesh under two skins", path.string(), "export a mesh of its own for each skin");

@@ -11,6 +11,7 @@
 #include "host/content/importer/apart.h"
 #include "host/content/importer/file_kind.h"
 #include "host/content/importer/gltf/gltf_json.h"
+#include "host/content/importer/image_writer.h"
 #include "host/content/importer/import_gltf_film.h"
 #include "host/content/importer/import_mesh.h"
 #include "host/content/importer/import_motion.h"
@@ -49,7 +50,7 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
   return run_apart(read, limits_for(bytes), path.string(), kRemedy);
 }
 
-// The report, a zero, the model or film.
+// The report, images, the model or film, as read_answer() takes them apart.
 std::vector<std::string> run(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const bool film = options.as == ImportAs::film;
   ImportedText imported = is_skeleton(kind)  ? import_motion(options, kind, stance.up, stance.upright)
@@ -57,8 +58,37 @@ std::vector<std::string> run(const ImportOptions& options, FileKind kind, const 
                           : film             ? import_gltf_film(options, kind, stance)
                                              : import_mesh(options, kind, stance);
   std::vector<std::string> parts{text_of(imported.report, options.to.string()) + '\0'};
+  for (KeptImage& image : imported.images) {
+    parts.push_back(image.file + '\0' + image.from.string() + '\0' + std::to_string(image.bytes.size()) + '\0');
+    parts.push_back(std::move(image.bytes));
+  }
+  parts.emplace_back(1, '\0');
   for (document::TextPart& part : imported.text) parts.push_back(std::move(part.text));
   return parts;
+}
+
+std::string_view take_until_zero(std::string_view& text) {
+  const std::string_view part = text.substr(0, text.find('\0'));
+  text.remove_prefix(part.size() + 1);
+  return part;
+}
+
+struct Answer {
+  std::string_view report;
+  std::vector<ImageToWrite> images;
+  std::string_view text;
+};
+
+Answer read_answer(std::string_view answer) {
+  Answer read{take_until_zero(answer), {}, {}};
+  for (std::string_view file = take_until_zero(answer); !file.empty(); file = take_until_zero(answer)) {
+    const std::filesystem::path from = take_until_zero(answer);
+    const std::size_t size = std::stoull(std::string(take_until_zero(answer)));
+    read.images.push_back({file, answer.substr(0, size), from});
+    answer.remove_prefix(size);
+  }
+  read.text = answer;
+  return read;
 }
 
 // `given` is the name that a person gave; "": the joint is named as the file.
@@ -122,9 +152,12 @@ std::string import_model(const ImportOptions& given) {
   const std::string up = options.up.empty() ? usual_up(kind) : options.up;
   const Stance stance{up, orientation(up, options.front.empty() ? usual_front(kind, up) : options.front)};
   const std::string answer = read_apart(options.from, options.more, kind, [&] { return run(options, kind, stance); });
-  const std::size_t end = answer.find('\0');
-  document::write_whole_file(options.to, std::string_view(answer).substr(end + 1));
-  return answer.substr(0, end);
+  const Answer read = read_answer(answer);
+  ImageWriter images(options.to, options.force);
+  for (const ImageToWrite& image : read.images) images.write(image);
+  document::write_whole_file(options.to, read.text);
+  images.keep();
+  return std::string(read.report);
 }
 
 }  // namespace mars::importer

@@ -102,7 +102,7 @@ class GltfFilm {
     add_lights(film);
     document::LongText text = film_text(std::move(film));
     check_film_text(text, options_.to);
-    return {std::move(report_), std::move(text)};
+    return {std::move(report_), std::move(text), std::move(model_.images)};
   }
 
  private:

@@ -29,6 +29,22 @@ std::vector<std::string> read_of(const MeshFile& file) {
   return read;
 }
 
+std::vector<std::string> kept_of(const MeshFile& file) {
+  std::size_t places = 0, colors = 0;
+  for (const MeshJoint& joint : file.joints) {
+    if (!joint.part) continue;
+    places += joint.part->paint.uv.size();
+    colors += joint.part->paint.colors.size();
+  }
+  std::vector<std::string> kept;
+  if (places > 0) kept.push_back(document::counted(places, "place u,v in images", "places u,v in images"));
+  if (colors > 0) kept.push_back(document::counted(colors, "vertex's colour", "vertices' colours"));
+  if (!file.images.empty())
+    kept.push_back(document::counted(file.images.size(), "image", "images") + " in " +
+                   std::filesystem::path(file.images[0].file).parent_path().string());
+  return kept;
+}
+
 // Of the first joint, whether it has a colour or not.
 std::string set_material(const ImportOptions& options) {
   return "mars model " + document::shell_word(options.to.string()) + " set " + document::shell_word(options.joint) +
@@ -59,9 +75,10 @@ std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, con
 
 MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance, std::vector<glm::dmat4> rest) {
   const bool looks_ahead = options.front.empty() && rest.empty();
-  MeshFile file = read_mesh_file(options.from, kind,
-                                 {stance.upright, options.size, options.crease, options.joint, set_material(options),
-                                  set_limb(options), std::move(rest), looks_ahead});
+  MeshFile file =
+      read_mesh_file(options.from, kind,
+                     {stance.upright, options.size, options.crease, options.joint, set_material(options),
+                      set_limb(options), options.to.stem().string() + "-images", std::move(rest), looks_ahead});
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   return file;
 }
@@ -72,15 +89,15 @@ document::LongText model_text_of(MeshFile& file) {
     joints.push_back({joint.name, joint.parent, joint.frame, joint.fixed, {}, joint.limits});
     if (joint.part)
       joints.back().segment =
-          WrittenSegment{shape_text(joint.part->mesh), joint.part->bounds, joint.part->material, {}};
+          WrittenSegment{shape_text(joint.part->mesh, joint.part->paint), joint.part->bounds, joint.part->material, {}};
     if (joint.has_skin) joints.back().segment->skin = skin_of(file);
-    if (joint.part) joint.part->mesh = {};
+    if (joint.part) joint.part->mesh = {}, joint.part->paint = {};
   }
   return model_text(std::move(joints), file.materials, file.limbs);
 }
 
 ImportReport report_of(const MeshFile& file, FileKind kind, const Stance& stance) {
-  return {"", box_text(file.extent, file.factor, kind, stance), read_of(file), file.made, file.not_read};
+  return {"", box_text(file.extent, file.factor, kind, stance), read_of(file), file.made, kept_of(file), file.not_read};
 }
 
 ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stance& stance) {
@@ -89,7 +106,8 @@ ImportedText import_mesh(const ImportOptions& options, FileKind kind, const Stan
   const std::size_t joints = file.joints.size();
   const std::string count = joints == 1 ? "one joint" : std::to_string(joints) + " joints, the first";
   report.model = "model of " + count + " '" + options.joint + "'";
-  return {std::move(report), model_text_of(file)};
+  document::LongText text = model_text_of(file);
+  return {std::move(report), std::move(text), std::move(file.images)};
 }
 
 }  // namespace mars::importer

@@ -187,7 +187,7 @@ ImportedText import_motion(const ImportOptions& options, FileKind kind, const st
   read.skeleton = placed(std::move(read.skeleton), upright, factor);
   name_joints(read.skeleton);
   stand_on_floor(read.skeleton);
-  ImportReport report{"", box_text(rest_box(read.skeleton), up), {}, {}, read.not_read};
+  ImportReport report{"", box_text(rest_box(read.skeleton), up), {}, {}, {}, read.not_read};
   list_read(read, report);
   report.made.insert(report.made.begin(), read.made.begin(), read.made.end());
   const bool film = options.as.value_or(kind == FileKind::asf ? ImportAs::model : ImportAs::film) == ImportAs::film;

@@ -27,6 +27,7 @@ ImportedText import_bpt(const ImportOptions& options, FileKind kind, const Stanc
            box_text(file.extent, factor, kind, stance),
            {document::counted(file.patches.size(), "patch", "patches")},
            {},
+           {},
            {}},
           model_text({{options.joint, "", {}, false, WrittenSegment{shape_text(file.patches), file.bounds, {}}}}, {})};
 }
@@ -132,6 +133,7 @@ ImportedText import_patches(const ImportOptions& options, FileKind kind, const S
                           : "model of " + std::to_string(colors.size()) + " joints, the first '" + options.joint + "'",
                       box_text(box.max - box.min, factor, kind, stance),
                       {document::counted(scene.patches.size(), "patch", "patches")},
+                      {},
                       {},
                       skipped_text(scene)};
   const auto given = std::ranges::count_if(colors, [](const OneColor& each) { return each.color.has_value(); });

@@ -23,6 +23,7 @@ std::string text_of(const ImportReport& report, const std::string& written) {
   std::string text =
       written + ": " + report.model + "\n" + line("box", report.box) + line("read", document::joined(report.read));
   text += list("made", report.made);
+  if (!report.kept.empty()) text += line("kept", document::joined(report.kept) + " (no picture shows them yet)");
   return text + (report.not_read.empty() ? line("not read", "nothing: all of the file was read")
                                          : list("not read", report.not_read));
 }

@@ -51,20 +51,22 @@ std::string reason_in_our_words(std::string_view message) {
   return "";
 }
 
-// .vrm is GLB, which Assimp knows by its own ending only.
-std::filesystem::path called(std::filesystem::path path) {
-  return kind_of_name(path) == FileKind::glb ? path.replace_extension(".glb") : path;
+// Assimp reads what a name's ending says; of .vrm it knows nothing.
+std::filesystem::path called(std::filesystem::path path, bool is_glb) {
+  return is_glb || kind_of_name(path) == FileKind::glb ? path.replace_extension(".glb") : path;
 }
 
 }  // namespace
 
 // No steps of Assimp's own but its check of indices: joining, splitting and smoothing are ours. What turns FBX's nodes
 // about points of their own stays in nodes of its own, for Assimp's animations of one node would lose it.
-LoadedScene::LoadedScene(const std::filesystem::path& path)
-    : path_(path), sources_(handed_over(std::make_unique<SceneSources>(path, called(path)))) {
+LoadedScene::LoadedScene(const std::filesystem::path& path, std::string unpacked)
+    : path_(path),
+      name_(called(path, !unpacked.empty())),
+      sources_(handed_over(std::make_unique<SceneSources>(path, name_, std::move(unpacked)))) {
   importer_.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   importer_.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  scene_ = importer_.ReadFile(called(path).string(), aiProcess_ValidateDataStructure);
+  scene_ = importer_.ReadFile(name_, aiProcess_ValidateDataStructure);
   if (scene_ == nullptr || scene_->mRootNode == nullptr) refuse();
 }
 

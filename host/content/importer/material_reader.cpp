@@ -44,16 +44,34 @@ std::optional<ImportedMaterial> MaterialReader::read(const aiMaterial& material)
   const bool glossy = is_gltf(kind_) && importer::number_of(material, AI_MATKEY_GLOSSINESS_FACTOR);
   aiColor4D given;
   if (!glossy && material.Get(AI_MATKEY_BASE_COLOR, given) == AI_SUCCESS)
-    return ImportedMaterial{color_of(given, material, aiTextureType_BASE_COLOR), surface_of(material)};
+    return ImportedMaterial{color_of(given, material, aiTextureType_BASE_COLOR), surface_of(material),
+                            images_of(material)};
   if (material.Get(AI_MATKEY_COLOR_DIFFUSE, given) != AI_SUCCESS) return {};
-  return ImportedMaterial{color_of(given, material, aiTextureType_DIFFUSE), surface_of(material)};
+  return ImportedMaterial{color_of(given, material, aiTextureType_DIFFUSE), surface_of(material), images_of(material)};
+}
+
+// Roughness and metal are in one image in glTF only.
+std::vector<MaterialImage> MaterialReader::images_of(const aiMaterial& material) {
+  std::vector<MaterialImage> images;
+  const auto add = [&](std::string_view use, aiTextureType type) {
+    aiString texture;
+    const bool is_new = images.empty() || images.back().use != use;
+    if (!is_new || material.GetTexture(type, 0, &texture) != AI_SUCCESS) return;
+    if (auto file = images_.keep(texture.C_Str())) images.push_back({use, std::move(*file)});
+  };
+  add("color", aiTextureType_BASE_COLOR);
+  add("color", aiTextureType_DIFFUSE);
+  add("normal", aiTextureType_NORMALS);
+  if (is_gltf(kind_)) add("surface", aiTextureType_METALNESS);
+  add("glow", aiTextureType_EMISSIVE);
+  return images;
 }
 
 const images::PictureMean* MaterialReader::mean_of(const aiMaterial& material, aiTextureType type,
                                                    std::set<std::string>& used) {
   aiString path;
   if (material.GetTexture(type, 0, &path) != AI_SUCCESS) return nullptr;
-  const std::optional<images::PictureMean>& mean = textures_.mean_of(path.C_Str());
+  const std::optional<images::PictureMean>& mean = means_.mean_of(path.C_Str());
   if (!mean) return nullptr;
   used.insert(path.C_Str());
   return &*mean;

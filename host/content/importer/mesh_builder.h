@@ -1,5 +1,5 @@
 // Puts the faces of one joint together: vertices that agree in place, normal and bones become one, faces of one
-// material one part.
+// material one part. Places in images and colours split no vertex: corners keep theirs beside the mesh.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host/content/importer/imported_mesh.h"
+#include "host/content/importer/paint.h"
 
 namespace mars::importer {
 
@@ -46,12 +47,12 @@ class MeshBuilder {
     glm::dvec3 at_rest;
   };
 
-  // The number, within its part, of a vertex given in the joint's axes and the file's units. Either all of the joint's
-  // vertices follow bones or none does.
-  std::uint32_t vertex(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal,
-                       const Follows* follows = nullptr);
+  // What add_face() calls a corner of the part: at a vertex given in the joint's axes and the file's units. Either all
+  // of the joint's vertices follow bones or none does.
+  std::uint32_t corner(std::size_t part_number, const glm::dvec3& place, const glm::dvec3& normal,
+                       const Follows* follows = nullptr, const CornerPaint& paint = {});
 
-  // Changes `face`: a corner twice in a row is one.
+  // Changes `face`: a vertex twice in a row is one corner.
   void add_face(std::size_t part_number, std::vector<std::uint32_t>& face);
 
   // Gives bones their numbers in another order.
@@ -68,9 +69,19 @@ class MeshBuilder {
   std::size_t faces_left_out() const { return faces_left_out_; }
 
  private:
+  static constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
+
   struct Vertex {
     glm::dvec3 place, normal, at_rest;
-    std::uint32_t follows;  // a number in follows_
+    std::uint32_t follows;       // a number in follows_
+    std::uint32_t row = kNoRow;  // the newest of its rows
+  };
+  // A vertex as some corners have it.
+  struct Row {
+    std::uint32_t vertex;
+    std::uint32_t older;  // of the same vertex
+    std::array<float, 2> uv{};
+    std::array<float, 4> color{1, 1, 1, 1};
   };
   using Key = std::array<double, 7>;
   struct Hash {
@@ -80,14 +91,22 @@ class MeshBuilder {
     Material material;
     std::vector<Vertex> vertices;
     std::unordered_map<Key, std::uint32_t, Hash> numbers;
-    std::vector<std::uint32_t> corners;
+    std::vector<Row> rows;               // from the first corner on that has paint; none: corners are vertices
+    std::vector<std::uint32_t> corners;  // numbers of rows, or of vertices
     std::vector<std::uint32_t> ends;
+    bool has_uv = false, has_colors = false;
+
+    std::uint32_t vertex_of(std::uint32_t corner) const { return rows.empty() ? corner : rows[corner].vertex; }
   };
 
   Vertex checked(const glm::dvec3& place, const glm::dvec3& normal) const;
   std::uint32_t number_of(const modeler::VertexBones& bones);
+  std::uint32_t vertex(Part& part, const glm::dvec3& place, const glm::dvec3& normal, const Follows* follows);
+  static std::uint32_t row_of(Part& part, std::uint32_t vertex, const CornerPaint& paint);
+  static std::uint32_t add_row(Part& part, const Row& row);
   void widen(modeler::Box& box, const auto& place_of) const;
-  modeler::Mesh mesh_of(const Part& part, const modeler::Box& bounds, double factor) const;
+  modeler::Mesh vertices_of(const Part& part, const modeler::Box& bounds, double factor) const;
+  MeshPart finished(const Part& part, const modeler::Box& bounds, double factor) const;
 
   std::string file_;
   MeshStyle style_;

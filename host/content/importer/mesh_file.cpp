@@ -9,6 +9,13 @@
 namespace mars::importer {
 namespace {
 
+CornerPaint paint_of(const PlyFile& ply, std::uint32_t vertex) {
+  CornerPaint paint;
+  if (!ply.uv.empty()) paint.uv = ply.uv[vertex];
+  if (!ply.colors.empty()) paint.color = ply.colors[vertex];
+  return paint;
+}
+
 MeshFile read_ply(const std::filesystem::path& path, const MeshOptions& options) {
   const PlyFile ply = read_ply_file(path);
   ModelBuilder builder(path.string(), options, !ply.normals.empty(), modeler::kDefaultCrease);
@@ -20,8 +27,9 @@ MeshFile read_ply(const std::filesystem::path& path, const MeshOptions& options)
     for (face.clear(); c < ply.ends[f]; ++c) {
       const std::uint32_t corner = ply.corners[c];
       if (numbers[corner] == kNew)
-        numbers[corner] = mesh.vertex(part, options.upright * ply.places[corner],
-                                      ply.normals.empty() ? glm::dvec3(0) : options.upright * ply.normals[corner]);
+        numbers[corner] = mesh.corner(part, options.upright * ply.places[corner],
+                                      ply.normals.empty() ? glm::dvec3(0) : options.upright * ply.normals[corner],
+                                      nullptr, paint_of(ply, corner));
       face.push_back(numbers[corner]);
     }
     mesh.add_face(part, face);

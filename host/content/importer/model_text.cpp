@@ -53,6 +53,25 @@ void append_bones(std::string& text, const std::vector<modeler::VertexBones>& bo
   });
 }
 
+// An alpha of 1 goes without saying.
+void append_paint(std::string& text, const modeler::Mesh& mesh, const MeshPaint& paint) {
+  if (!paint.uv.empty()) {
+    text += ",\n      \"uv\": ";
+    append_rows(text, paint.uv.size(), [&](std::size_t row) { append_row(text, paint.uv[row].data(), 2); });
+  }
+  if (!paint.colors.empty()) {
+    text += ",\n      \"colors\": ";
+    append_rows(text, paint.colors.size(), [&](std::size_t row) {
+      append_row(text, paint.colors[row].data(), paint.colors[row][3] == 1 ? 3 : 4);
+    });
+  }
+  if (paint.corners.empty()) return;
+  text += ",\n      \"paint_faces\": ";
+  append_rows(text, mesh.ends.size(), [&](std::size_t face) {
+    append_row(text, paint.corners.data() + mesh.first_corner(face), mesh.face(face).size());
+  });
+}
+
 // A triangle that follows the last bone.
 std::string brief_text(const modeler::Mesh& mesh) {
   std::string text = "{\"mesh\": {\"vertices\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]], \"faces\": [[0, 1, 2]]";
@@ -83,6 +102,11 @@ std::string material_text(const ImportedMaterial& material) {
     append(text, material.surface->roughness);
     text += ", \"metallic\": ";
     append(text, material.surface->metallic);
+  }
+  if (!material.images.empty()) {
+    nlohmann::ordered_json images = nlohmann::ordered_json::object();
+    for (const MaterialImage& image : material.images) images[std::string(image.use)] = image.file;
+    text += ", \"images\": " + images.dump();
   }
   return text + "}";
 }
@@ -207,7 +231,7 @@ document::TextPart shape_text(const std::vector<wire::Patch>& patches) {
   return {std::move(text)};
 }
 
-document::TextPart shape_text(const modeler::Mesh& mesh) {
+document::TextPart shape_text(const modeler::Mesh& mesh, const MeshPaint& paint) {
   std::string text = "{\"mesh\": {\n      \"vertices\": ";
   append_places(text, mesh.vertices);
   text += ",\n      \"faces\": ";
@@ -221,6 +245,7 @@ document::TextPart shape_text(const modeler::Mesh& mesh) {
     append_places(text, mesh.normals);
   }
   if (!mesh.bones.empty()) append_bones(text, mesh.bones);
+  append_paint(text, mesh, paint);
   text += "}}";
   return {std::move(text), brief_text(mesh)};
 }

@@ -38,7 +38,7 @@ std::string material_name(std::size_t number);
 
 // A shape as JSON. In brief a mesh is a triangle that follows as many bones.
 document::TextPart shape_text(const std::vector<wire::Patch>& patches);
-document::TextPart shape_text(const modeler::Mesh& mesh);
+document::TextPart shape_text(const modeler::Mesh& mesh, const MeshPaint& paint = {});
 
 document::LongText model_text(std::vector<WrittenJoint> joints, const std::vector<ImportedMaterial>& materials,
                               const std::vector<NamedLimb>& limbs = {});

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
+#include "host/content/importer/paint.h"
 #include "host/content/importer/ply_header.h"
 
 namespace mars::importer {
@@ -75,6 +77,30 @@ class Numbers {
   PlyFormat format_;
 };
 
+constexpr std::array<std::string_view, 3> kNormal{"nx", "ny", "nz"};
+constexpr std::array<std::string_view, 4> kColor{"red", "green", "blue", "alpha"};
+constexpr std::array<std::array<std::string_view, 2>, 3> kUv{{{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}}};
+
+// What a vertex has besides its place, in the order in which it is read.
+struct VertexLayout {
+  std::span<const std::string_view> normal{}, uv{}, color{};  // names; none: it has none
+  double whole = 1;                                           // a full part of a colour
+};
+
+// The number that stands for all of a colour's part; 0: none does.
+double whole_of(PlyType type) {
+  return type == PlyType::uint8                                 ? 255
+         : type == PlyType::uint16                              ? 65535
+         : type == PlyType::float32 || type == PlyType::float64 ? 1
+                                                                : 0;
+}
+
+std::vector<std::string_view> names_of(const VertexLayout& layout) {
+  std::vector<std::string_view> names{"x", "y", "z"};
+  for (const auto& more : {layout.normal, layout.uv, layout.color}) names.insert(names.end(), more.begin(), more.end());
+  return names;
+}
+
 // Reads the elements in the header's order.
 class BodyReader {
  public:
@@ -102,6 +128,7 @@ class BodyReader {
     for (const PlyProperty& property : element.properties)
       places.push_back(static_cast<std::size_t>(std::find(names.begin(), names.end(), property.name) - names.begin()));
     std::vector<double> row(names.size()), list;
+    const VertexLayout layout = element.name == "vertex" ? layout_of(element) : VertexLayout{};
     for (std::uint64_t i = 0; i < element.count; ++i) {
       for (std::size_t p = 0; p < places.size(); ++p) {
         if (!read_property(element.properties[p], list)) fail_short(element, i);
@@ -111,7 +138,7 @@ class BodyReader {
         else
           row[places[p]] = list.at(0);
       }
-      if (element.name == "vertex") add_vertex(row);
+      if (element.name == "vertex") add_vertex(row, layout);
     }
   }
 
@@ -121,14 +148,29 @@ class BodyReader {
     });
   }
 
+  static bool has_all(const PlyElement& element, std::span<const std::string_view> names) {
+    return std::ranges::all_of(names, [&](std::string_view name) { return has(element, name, false); });
+  }
+
+  static VertexLayout layout_of(const PlyElement& vertex) {
+    VertexLayout layout;
+    if (has_all(vertex, kNormal)) layout.normal = kNormal;
+    const auto red = std::ranges::find(vertex.properties, kColor[0], &PlyProperty::name);
+    if (has_all(vertex, std::span(kColor).first(3)) && whole_of(red->type) > 0) {
+      layout.color = std::span(kColor).first(has(vertex, kColor[3], false) ? 4 : 3);
+      layout.whole = whole_of(red->type);
+    }
+    for (const auto& pair : kUv)
+      if (layout.uv.empty() && has_all(vertex, pair)) layout.uv = pair;
+    return layout;
+  }
+
   // The names of the element's properties that are read.
   std::vector<std::string_view> wanted(const PlyElement& element) const {
     if (element.name == "vertex") {
       for (const char* axis : {"x", "y", "z"})
         if (!has(element, axis, false)) fail_ply(path_, std::string("gives its vertices no ") + axis);
-      if (has(element, "nx", false) && has(element, "ny", false) && has(element, "nz", false))
-        return {"x", "y", "z", "nx", "ny", "nz"};
-      return {"x", "y", "z"};
+      return names_of(layout_of(element));
     }
     if (element.name == "face" || element.name == "tristrips")
       for (const char* name : {"vertex_indices", "vertex_index"})
@@ -182,9 +224,18 @@ class BodyReader {
                         ", " + document::counted(rows, "was read", "were read"));
   }
 
-  void add_vertex(const std::vector<double>& row) {
-    file_.places.emplace_back(row[0], row[1], row[2]);
-    if (row.size() == 6) file_.normals.emplace_back(row[3], row[4], row[5]);
+  void add_vertex(const std::vector<double>& row, const VertexLayout& layout) {
+    const double* next = row.data();
+    file_.places.emplace_back(next[0], next[1], next[2]);
+    next += 3;
+    if (!layout.normal.empty()) file_.normals.emplace_back(next[0], next[1], next[2]);
+    next += layout.normal.size();
+    if (!layout.uv.empty()) file_.uv.push_back(place_in_image(next[0], next[1]));
+    next += layout.uv.size();
+    if (layout.color.empty()) return;
+    std::array<float, 4> color{1, 1, 1, 1};
+    for (std::size_t i = 0; i < layout.color.size(); ++i) color[i] = shown_part(next[i] / layout.whole, false);
+    file_.colors.push_back(color);
   }
 
   void add_corners(const std::string& element, const std::vector<double>& list) {

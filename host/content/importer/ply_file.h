@@ -3,6 +3,7 @@
 // where vertices are missing. What else Debian 12 has for PLY - VTK, PCL, CGAL - is far larger than this.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec3.hpp>
@@ -13,10 +14,12 @@ namespace mars::importer {
 
 struct PlyFile {
   std::vector<glm::dvec3> places;
-  std::vector<glm::dvec3> normals;     // one a vertex, or none
-  std::vector<std::uint32_t> corners;  // numbers of vertices, face after face
-  std::vector<std::size_t> ends;       // of each face in corners
-  std::vector<std::string> not_read;   // "properties red, green, blue of vertices", ...
+  std::vector<glm::dvec3> normals;           // one a vertex, or none
+  std::vector<std::array<float, 2>> uv;      // one a vertex, or none
+  std::vector<std::array<float, 4>> colors;  // one a vertex, as shown, and alpha; or none
+  std::vector<std::uint32_t> corners;        // numbers of vertices, face after face
+  std::vector<std::size_t> ends;             // of each face in corners
+  std::vector<std::string> not_read;         // "properties red, green, blue of vertices", ...
 };
 
 // As many vertices and faces as the header promises; a file with fewer is refused.

@@ -74,14 +74,14 @@ Promised promised_by_stl(std::string_view bytes) {
   return promised;
 }
 
-// These extensions pack shapes, without which the file cannot be read; other extensions are about what models do not
-// have.
+// This extension packs shapes, without which the file cannot be read; other extensions are unpacked before, or about
+// what models do not have.
 void refuse_extensions(const std::filesystem::path& path, const Tree& required) {
-  for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization"})
-    if (std::find(required.begin(), required.end(), extension) != required.end())
-      throw Failure(std::string("has its shapes packed as ") + extension, path.string(),
-                    "export it without quantization, or with Draco's compression: gltf-transform dequantize in.glb "
-                    "out.glb, or through Blender");
+  constexpr const char* kPacked = "KHR_meshopt_compression";
+  if (std::find(required.begin(), required.end(), kPacked) != required.end())
+    throw Failure(std::string("has its shapes packed as ") + kPacked, path.string(),
+                  "export it with EXT_meshopt_compression or Draco's compression, or unpack it: gltf-transform "
+                  "dequantize in.glb out.glb");
 }
 
 std::size_t triangles_of(const Tree& primitive, const Tree& accessors) {

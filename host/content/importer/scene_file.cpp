@@ -15,7 +15,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/assimp_matrix.h"
-#include "host/content/importer/gltf/gltf_bounds.h"
+#include "host/content/importer/gltf/unpacked_gltf.h"
 #include "host/content/importer/gltf_limbs.h"
 #include "host/content/importer/gltf_skins.h"
 #include "host/content/importer/joint_frame.h"
@@ -24,6 +24,7 @@
 #include "host/content/importer/model_builder.h"
 #include "host/content/importer/node_tree.h"
 #include "host/content/importer/orientation.h"
+#include "host/content/importer/paint.h"
 #include "host/content/importer/motions/spindles.h"
 #include "host/content/importer/promised.h"
 #include "host/content/importer/loaded_scene.h"
@@ -52,16 +53,22 @@ constexpr std::size_t kBonesOfFigures = 8;  // at least: a spine and two legs th
 // What the file says without Assimp.
 struct FileItself {
   FileItself(const std::filesystem::path& path, FileKind kind) {
-    const std::string bytes = document::read_file(path, kLargestMeshFile);
+    std::string bytes = document::read_file(path, kLargestMeshFile);
     if (kind == FileKind::glb && bytes.size() >= 4 && !bytes.starts_with("glTF"))
       throw Failure("is no GLB file: it does not begin with glTF", path.string(), "name it by what it is");
     Tree gltf;
-    if (is_gltf(kind)) gltf = gltf_json(bytes);
-    require_within_buffers(path, gltf);
+    if (is_gltf(kind)) {
+      GltfBytes given = gltf_bytes(path, std::move(bytes));
+      bytes = std::move(given.bytes);
+      gltf = std::move(given.gltf);
+      if (given.unpacked) unpacked = bytes;
+    }
     promised = promised_by(path, kind, bytes, gltf);
     if (is_gltf(kind)) skins = gltf_skins(path, gltf);
     limbs = limb_map(gltf);
   }
+
+  std::string unpacked;  // a GLB in place of the file; "": Assimp can read that itself
 
   Promised promised;
   std::optional<GltfSkins> skins;  // of scenes; FBX's and COLLADA's are known when Assimp has read them
@@ -76,11 +83,11 @@ class SceneReader {
         options_(options),
         upright_(options.upright),
         file_(path, kind),
-        loaded_(path),
+        loaded_(path, std::move(file_.unpacked)),
         scene_(loaded_.scene()),
         is_skeleton_(is_skeleton()),
         tree_(node_tree(path, scene_, skins(), options.rest)),
-        materials_(path, kind, scene_),
+        materials_(path, kind, scene_, options.images_folder),
         builder_(path.string(), options, has_normals(), is_gltf(kind) || is_skeleton_ ? 0 : modeler::kDefaultCrease) {}
 
   MeshFile read() {
@@ -92,13 +99,16 @@ class SceneReader {
     MeshFile file = builder_.finish();
     for (unsigned i = 0; i < scene_.mNumMeshes; ++i) file.vertices += scene_.mMeshes[i]->mNumVertices;
     file.vertices = file_.promised.vertices.value_or(file.vertices);
-    file.materials = is_skeleton_ ? std::vector<ImportedMaterial>{{kColorOfBones, {}}} : materials_.materials();
+    file.materials = is_skeleton_ ? std::vector<ImportedMaterial>{{kColorOfBones, {}, {}}} : materials_.materials();
     file.limbs = named_limbs_;
     list_what_was_made(file);
     list_not_read(file.not_read);
     file.companions = loaded_.sources().companions();
-    file.companions.insert(file.companions.end(), materials_.textures().companions().begin(),
-                           materials_.textures().companions().end());
+    file.companions.insert(file.companions.end(), materials_.means().companions().begin(),
+                           materials_.means().companions().end());
+    file.images = std::move(materials_.images().images());
+    for (const KeptImage& image : file.images)
+      if (!image.from.empty()) file.companions.push_back(image.from);
     return file;
   }
 
@@ -283,7 +293,7 @@ class SceneReader {
     for (const auto& corners : spindles.faces) {
       face.clear();
       for (const std::size_t corner : corners)
-        face.push_back(builder.vertex(part, to_axes * spindles.vertices[corner], glm::dvec3(0)));
+        face.push_back(builder.corner(part, to_axes * spindles.vertices[corner], glm::dvec3(0)));
       builder.add_face(part, face);
     }
   }
@@ -400,16 +410,33 @@ class SceneReader {
       for (std::size_t i = 0; i < corners.size(); ++i) {
         const unsigned corner = corners[i];
         const glm::dvec3 normal = mesh.HasNormals() ? across * dvec3_of(mesh.mNormals[corner]) : flat;
+        const CornerPaint paint = paint_of(mesh, corner);
         if (skin == nullptr) {
-          face.push_back(builder.vertex(part, places[i], normal));
+          face.push_back(builder.corner(part, places[i], normal, nullptr, paint));
           continue;
         }
         const MeshBuilder::Follows followed = follows(*skin, bones, corner, places[i]);
-        face.push_back(builder.vertex(part, places[i], normal, &followed));
+        face.push_back(builder.corner(part, places[i], normal, &followed, paint));
       }
       if (mirrored) std::ranges::reverse(face);
       builder.add_face(part, face);
     }
+  }
+
+  // v upward, as Assimp turns that of glTF; colours as shown, as those of materials.
+  CornerPaint paint_of(const aiMesh& mesh, unsigned vertex) const {
+    CornerPaint paint;
+    if (mesh.HasTextureCoords(0)) {
+      const aiVector3D& uv = mesh.mTextureCoords[0][vertex];
+      paint.uv = place_in_image(uv.x, uv.y);
+    }
+    if (mesh.HasVertexColors(0)) {
+      const aiColor4D& color = mesh.mColors[0][vertex];
+      const bool is_light = is_gltf(kind_);
+      paint.color = {shown_part(color.r, is_light), shown_part(color.g, is_light), shown_part(color.b, is_light),
+                     shown_part(color.a, false)};
+    }
+    return paint;
   }
 
   // Of glTF, with the targets at the weights that the mesh has; Assimp gives their places, not what they add.
@@ -469,8 +496,8 @@ class SceneReader {
     if (weights_left_out_ > 0)
       list.push_back(document::counted(weights_left_out_, "weight", "weights") +
                      " of vertices that follow more than 4 bones: the 4 heaviest count");
-    append(list, unread_parts(scene_, materials_.textures(), options_.set_material, !options_.rest.empty()));
-    append(list, materials_.textures().not_read());
+    append(list, unread_parts(scene_, materials_, options_.set_material, !options_.rest.empty()));
+    append(list, materials_.means().not_read());
     append(list, file_.promised.not_read);
     if (const std::size_t count = materials_.cut_colors(); count > 0)
       list.push_back(document::counted(count, "colour", "colours") + " beyond 0 to 1: cut to that" +

@@ -1,5 +1,9 @@
 #include "host/content/importer/scene_sources.h"
 
+#include <assimp/MemoryIOWrapper.h>
+
+#include <cstdint>
+
 #include "hal/failure/failure.h"
 #include "host/content/importer/sources/companion.h"
 
@@ -7,8 +11,12 @@ namespace mars::importer {
 
 namespace fs = std::filesystem;
 
+bool SceneSources::Exists(const char* name) const { return called_ == name || DefaultIOSystem::Exists(name); }
+
 Assimp::IOStream* SceneSources::Open(const char* called, const char* mode) {
-  const char* name = file_of(called);
+  if (called_ == called && !unpacked_.empty())
+    return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(unpacked_.data()), unpacked_.size());
+  const char* name = called_ == called ? mesh_.c_str() : called;
   if (mesh_ != name) companion(mesh_, fs::path(name).lexically_relative(folder_).string());
   std::error_code none;
   const fs::file_status status = fs::status(name, none);

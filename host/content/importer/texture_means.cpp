@@ -1,20 +1,15 @@
 #include "host/content/importer/texture_means.h"
 
-#include <algorithm>
 #include <cstring>
-#include <nlohmann/json.hpp>
+#include <span>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/apart.h"
-#include "host/content/importer/sources/companion.h"
-#include "host/content/importer/gltf/gltf_json.h"
 
 namespace mars::importer {
 namespace {
-
-constexpr std::uintmax_t kLargestPicture = std::uintmax_t{1} << 28;
 
 std::string bytes_of(const images::PictureMean& mean) { return {reinterpret_cast<const char*>(&mean), sizeof mean}; }
 
@@ -38,35 +33,15 @@ bool TextureMeans::has(const std::string& texture) const {
 }
 
 std::optional<images::PictureMean> TextureMeans::read(const std::string& texture) {
-  const auto [picture, number] = scene_.GetEmbeddedTextureAndIndex(texture.c_str());
-  if (picture != nullptr && picture->mHeight == 0)
-    return mean_of_bytes({reinterpret_cast<const char*>(picture->pcData), picture->mWidth},
-                         "picture " + std::to_string(number + 1));
-  if (texture.starts_with('*')) return std::nullopt;
-  const auto path = file_of(texture);
-  if (!path) {
-    not_read_.push_back("texture " + document::printable(texture) + " (no such file beside the mesh)");
+  const auto found = textures_.find(texture);
+  if (!found) {
+    if (!texture.starts_with('*'))
+      not_read_.push_back("texture " + document::printable(texture) + " (no such file beside the mesh)");
     return std::nullopt;
   }
-  companions_.push_back(*path);
-  return mean_of_bytes(document::read_file(*path, kLargestPicture), document::printable(texture));
-}
-
-// FBX and COLLADA name files as they were where they were written, such as "C:\\work\\skin.png"; these may lie beside
-// the mesh now.
-std::optional<std::filesystem::path> TextureMeans::file_of(const std::string& texture) const {
-  std::string name = is_gltf(kind_) ? percent_decoded(texture) : texture;
-  std::vector<std::filesystem::path> names{name};
-  if (has_nodes(kind_) && !is_gltf(kind_)) {
-    std::ranges::replace(name, '\\', '/');
-    names = {name, std::filesystem::path(name).filename()};
-  }
-  for (const std::filesystem::path& each : names) {
-    std::error_code none;
-    const std::filesystem::path path = mesh_.parent_path() / each;
-    if (stays_inside(each) && std::filesystem::is_regular_file(path, none)) return path;
-  }
-  return std::nullopt;
+  if (found->from.empty()) return mean_of_bytes(found->bytes, found->name);
+  companions_.push_back(found->from);
+  return mean_of_bytes(document::read_file(found->from, kLargestPicture), found->name);
 }
 
 std::optional<images::PictureMean> TextureMeans::mean_of_bytes(std::string_view bytes, const std::string& name) {

@@ -2,26 +2,24 @@
 // are: a damaged picture costs the model its colour, no more.
 #pragma once
 
-#include <assimp/scene.h>
-
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "host/content/importer/file_kind.h"
+#include "host/content/importer/scene_textures.h"
 #include "host/images/picture_mean.h"
 
 namespace mars::importer {
 
 class TextureMeans {
  public:
-  TextureMeans(std::filesystem::path mesh, FileKind kind, const aiScene& scene)
-      : mesh_(std::move(mesh)), kind_(kind), scene_(scene) {}
+  // `textures` outlives it.
+  explicit TextureMeans(const SceneTextures& textures) : textures_(textures) {}
 
-  // Of the picture that a material names `texture`: "*2" is a picture within the file, else it is a file's path. None
-  // where it cannot be read, which not_read() then lists.
+  // Of the picture that a material names `texture`. None where it cannot be read, which not_read() then lists.
   const std::optional<images::PictureMean>& mean_of(const std::string& texture);
 
   bool has(const std::string& texture) const;
@@ -31,12 +29,9 @@ class TextureMeans {
 
  private:
   std::optional<images::PictureMean> read(const std::string& texture);
-  std::optional<std::filesystem::path> file_of(const std::string& texture) const;
   std::optional<images::PictureMean> mean_of_bytes(std::string_view bytes, const std::string& name);
 
-  std::filesystem::path mesh_;
-  FileKind kind_;
-  const aiScene& scene_;
+  const SceneTextures& textures_;
   std::map<std::string, std::optional<images::PictureMean>> means_;
   std::vector<std::string> not_read_;
   std::vector<std::filesystem::path> companions_;

@@ -13,13 +13,10 @@ namespace {
 
 struct Counts {
   std::set<std::string> textures;
-  std::size_t colored_vertices = 0, mapped_vertices = 0, targets = 0, points = 0, lines = 0, glosses = 0, glows = 0,
-              transparencies = 0;
+  std::size_t targets = 0, points = 0, lines = 0, glosses = 0, glows = 0, transparencies = 0;
 };
 
 void add_mesh(const aiMesh& mesh, Counts& counts) {
-  if (mesh.HasVertexColors(0)) counts.colored_vertices += mesh.mNumVertices;
-  if (mesh.HasTextureCoords(0)) counts.mapped_vertices += mesh.mNumVertices;
   counts.targets += mesh.mNumAnimMeshes;
   for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
     counts.points += mesh.mFaces[i].mNumIndices == 1;
@@ -51,12 +48,13 @@ bool is_transparent(const aiMaterial& material) {
 }
 
 // Only materials that meshes have: Assimp makes some of its own.
-void add_material(const aiMaterial& material, const TextureMeans& means, Counts& counts) {
+void add_material(const aiMaterial& material, const MaterialReader& materials, Counts& counts) {
   for (int type = aiTextureType_NONE; type <= AI_TEXTURE_TYPE_MAX; ++type)
     for (unsigned i = 0; i < material.GetTextureCount(static_cast<aiTextureType>(type)); ++i) {
       aiString path;
       material.GetTexture(static_cast<aiTextureType>(type), i, &path);
-      if (!means.has(path.C_Str())) counts.textures.insert(path.C_Str());
+      if (!materials.means().has(path.C_Str()) && !materials.images().has(path.C_Str()))
+        counts.textures.insert(path.C_Str());
     }
   if (material.GetName() == aiString(AI_DEFAULT_MATERIAL_NAME) || material.GetName().length == 0) return;
   counts.glosses += shines(material);
@@ -64,22 +62,22 @@ void add_material(const aiMaterial& material, const TextureMeans& means, Counts&
   counts.transparencies += is_transparent(material);
 }
 
-Counts counts_of(const aiScene& scene, const TextureMeans& means) {
+Counts counts_of(const aiScene& scene, const MaterialReader& reader) {
   Counts counts;
   std::set<unsigned> materials;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     add_mesh(*scene.mMeshes[i], counts);
     materials.insert(scene.mMeshes[i]->mMaterialIndex);
   }
-  for (const unsigned number : materials) add_material(*scene.mMaterials[number], means, counts);
+  for (const unsigned number : materials) add_material(*scene.mMaterials[number], reader, counts);
   return counts;
 }
 
 }  // namespace
 
-std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& means, const std::string& set_material,
-                                      bool in_film) {
-  const Counts counts = counts_of(scene, means);
+std::vector<std::string> unread_parts(const aiScene& scene, const MaterialReader& materials,
+                                      const std::string& set_material, bool in_film) {
+  const Counts counts = counts_of(scene, materials);
   std::vector<std::string> parts;
   const auto add = [&](std::size_t count, std::string_view one, std::string_view several,
                        const std::string& remedy = "") {
@@ -89,8 +87,6 @@ std::vector<std::string> unread_parts(const aiScene& scene, const TextureMeans& 
   if (!in_film) add(scene.mNumAnimations, "animation", "animations", " (--as film shows one)");
   add(counts.targets, "morph target", "morph targets");
   add(counts.textures.size(), "texture", "textures", one_color);
-  add(counts.mapped_vertices, "vertex's place in a texture", "vertices' places in a texture");
-  add(counts.colored_vertices, "vertex's colour", "vertices' colours", one_color);
   add(counts.glosses, "material's gloss", "materials' gloss", " (" + set_material + " --specular 0.3)");
   add(counts.glows, "material's glow", "materials' glow");
   add(counts.transparencies, "material's transparency", "materials' transparency");

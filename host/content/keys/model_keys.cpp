@@ -38,6 +38,13 @@ constexpr Type kModelTypes[] = {
      R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 3, "maxItems": 3,
          "items": {"type": "number", "minimum": -1e6, "maximum": 1e6}}})",
      ""},
+    {"uv",
+     R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": "#coordinate"}})",
+     ""},
+    {"vertex_colors",
+     R"({"type": "array", "minItems": 1, "items": {"type": "array", "minItems": 3, "maxItems": 4,
+         "items": {"type": "number", "minimum": 0, "maximum": 1}}})",
+     ""},
     {"vertex_bones",
      R"({"type": "array", "minItems": 3, "items": {"type": "array", "minItems": 2, "maxItems": 8,
          "items": {"type": "number", "minimum": 0}}})",
@@ -336,7 +343,36 @@ Object mesh() {
         .meaning = "of a skin: for each vertex 1 to 4 pairs `[bone, weight, ...]`. A bone is a number in the list of "
                    "the skin's joints, counted from 0; weights count relative to their sum",
         .see = "model-format.md#skins",
-        .without = "none: the mesh is rigid"}}};
+        .without = "none: the mesh is rigid"},
+       {.name = "uv",
+        .type = "uv",
+        .meaning = "kept, not shown: for each vertex its place `[u, v]` in images, from 0 to 1 rightward and upward "
+                   "from an image's lower left corner, beyond that in copies of it",
+        .see = "importing-materials.md#what-is-kept",
+        .without = "none"},
+       {.name = "colors",
+        .type = "vertex_colors",
+        .meaning = "kept, not shown: for each vertex its colour, `[red, green, blue]` as materials have it, or with "
+                   "its alpha",
+        .see = "importing-materials.md#what-is-kept",
+        .without = "none"},
+       {.name = "paint_faces",
+        .type = "faces",
+        .meaning = "where vertices have several of them: for each face, for each of its corners a number of a row of "
+                   "`uv` and of `colors`, counted from 0",
+        .see = "importing-materials.md#what-is-kept",
+        .without = "the numbers in `faces`"}}};
+}
+
+// What a material's images show.
+Object images() {
+  Object images{"images", "Files of images, as seen from the folder of the file that names them.", {}};
+  for (const auto& [name, meaning] : {std::pair<std::string_view, std::string_view>{"color", "the surface's colour"},
+                                      {"normal", "its normals in the axes of u, v and the surface, from 0 to 1"},
+                                      {"surface", "in green its roughness, in blue its metal"},
+                                      {"glow", "the light that it gives off"}})
+    images.keys.push_back({.name = name, .type = "text", .meaning = meaning, .without = "none"});
+  return images;
 }
 
 Object skin() {
@@ -422,6 +458,13 @@ std::vector<Key> material_keys() {
                   .json = "2",
                   .example = "1"});
   for (const MaterialFlag& flag : kMaterialFlags) keys.push_back(flag.key);
+  keys.push_back({.name = "images",
+                  .type = "images",
+                  .meaning = "kept, not shown: images of the surface, which `uv` of a mesh places",
+                  .see = "importing-materials.md#what-is-kept",
+                  .without = "none",
+                  .typed = false,
+                  .example = R"({"color": "rock-images/stone.png"})"});
   return keys;
 }
 
@@ -436,8 +479,8 @@ std::vector<Object> make_model_objects() {
                   .meaning = "How a surface looks. A number that its reflection does not use is an error.",
                   .keys = material_keys(),
                   .example = kMaterialExample};
-  return {model(),   joint(),   limits(),    segment(),     skin(), limbs(),       side(),
-          surface(), bspline(), direction(), subdivision(), mesh(), proportions(), material};
+  return {model(),   joint(),     limits(),      segment(), skin(),        limbs(),  side(),  surface(),
+          bspline(), direction(), subdivision(), mesh(),    proportions(), material, images()};
 }
 
 std::span<const Type> model_types() { return kModelTypes; }

@@ -14,6 +14,15 @@ std::string users_of(const MaterialNumber& number) {
   return names;
 }
 
+// They are kept for the day when surfaces show them.
+void check_images(const document::Fields& material) {
+  const auto images = material.find("images");
+  if (!images) return;
+  const document::Fields fields(*images, keys::object("images"));
+  for (const keys::Key& use : keys::object("images").keys)
+    if (const auto file = fields.find(use.name)) document::read_text(*file);
+}
+
 }  // namespace
 
 void refuse_unused(const document::Fields& fields, wire::Reflection reflection) {
@@ -32,6 +41,7 @@ wire::Material read_shading(const document::Fields& fields) {
   material.sides = document::read_count(fields.value("sides"), 1, 2);
   for (const MaterialFlag& flag : kMaterialFlags) material.*flag.member = fields.flag(flag.key.name);
   refuse_unused(fields, material.reflection);
+  check_images(fields);
   return material;
 }
 

@@ -81,7 +81,9 @@ Json mirrored_subdivision(Json cage) {
 
 Json mirrored_mesh(Json mesh) {
   mirror_points(mesh["vertices"]);
-  for (Json& face : mesh["faces"]) std::reverse(face.begin(), face.end());
+  for (const char* faces : {"faces", "paint_faces"})
+    if (mesh.contains(faces))
+      for (Json& face : mesh[faces]) std::reverse(face.begin(), face.end());
   if (mesh.contains("normals"))
     for (Json& normal : mesh["normals"]) negate(normal, {1});
   return mesh;

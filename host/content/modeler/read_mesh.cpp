@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "host/content/modeler/check_paint.h"
 #include "host/content/modeler/read_skin_weights.h"
 
 namespace mars::modeler {
@@ -76,6 +77,7 @@ Mesh read_mesh(const document::Element& element) {
     read_normals(*normals, faces, mesh);
   }
   if (const auto bones = fields.find("bones")) read_bones(*bones, mesh);
+  check_paint(fields, mesh);
   return mesh;
 }
 

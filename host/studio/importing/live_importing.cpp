@@ -25,6 +25,8 @@ namespace asio = boost::asio;
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
+constexpr const char* kImages = "-images";  // what follows a model's name in that of its folder of images
+
 // What a run of `mars import` made.
 struct Made {
   fs::path file;  // while the import goes on
@@ -48,7 +50,7 @@ struct Import {
   std::vector<bool> begun;            // files that the page sends or has sent
   std::size_t there = 0;              // files that are whole
   std::vector<Made> made;             // of the jobs, in their order
-  std::vector<fs::path> beside_film;  // models that have been put there
+  std::vector<fs::path> beside_film;  // models and folders of images that have been put there
   std::string printed;                // by the run that goes on
   bool ended = false;                 // what still comes for it is refused
 };
@@ -98,6 +100,8 @@ class LiveImporting final : public Importing {
   std::vector<std::string> words_of(const ImportJob& job, const PathOf& path_of, const fs::path& to) const;
   void run_ended(const child::Ending& ending, const std::string& reason);
   void finish();
+  std::string unused_name(const std::string& wanted) const;
+  void put_beside_film(const fs::path& made, const fs::path& to);
   std::vector<std::string> put_beside_film();
   Json step_for(const std::vector<std::string>& files, std::vector<std::string>& actors) const;
   std::vector<editing::Command> typed_for(const std::vector<std::string>& files) const;
@@ -190,7 +194,7 @@ std::vector<std::string> LiveImporting::words_of(const ImportJob& job, const Pat
 
 void LiveImporting::run_next() {
   const ImportJob& job = import_->jobs[import_->made.size()];
-  const fs::path to = import_->folder.make_folder(import_->made.size()) / (job.name + ".json");
+  const fs::path to = import_->folder.make_folder(import_->made.size()) / (unused_name(job.name) + ".json");
   std::vector<std::string> words = words_of(
       job, [this](const std::string& file) { return import_->folder.uploaded(file); }, to);
   words.insert(words.begin(), settings_.mars.string());
@@ -218,21 +222,38 @@ void LiveImporting::run_ended(const child::Ending& ending, const std::string& re
   });
 }
 
-// Under the first name of NAME.json, NAME-2.json, ... that is free.
+// The first of NAME, NAME-2, ... of which there is neither a model nor a folder of its images, which the model names.
+std::string LiveImporting::unused_name(const std::string& wanted) const {
+  const fs::path folder = fs::absolute(settings_.file).parent_path();
+  for (int number = 1;; ++number) {
+    const std::string name = wanted + (number == 1 ? "" : "-" + std::to_string(number));
+    const auto has_it = [&](const Made& made) { return made.file.stem() == name; };
+    if (!document::file_exists(folder / (name + ".json")) && !fs::exists(folder / (name + kImages)) &&
+        std::ranges::none_of(import_->made, has_it))
+      return name;
+  }
+}
+
+void LiveImporting::put_beside_film(const fs::path& made, const fs::path& to) {
+  if (fs::exists(to))
+    throw Failure("has appeared beside the film meanwhile", to.filename().string(), "import the files once more");
+  fs::rename(made, to);
+  import_->beside_film.push_back(to);
+}
+
+// Images before the model that names them.
 std::vector<std::string> LiveImporting::put_beside_film() {
   const fs::path folder = fs::absolute(settings_.file).parent_path();
   const document::FolderLock lock(fs::absolute(settings_.file));
   std::vector<std::string> files;
-  for (std::size_t i = 0; i < import_->made.size(); ++i) {
-    std::string name;
-    for (int number = 1; name.empty() || document::file_exists(folder / name); ++number)
-      name = import_->jobs[i].name + (number == 1 ? "" : "-" + std::to_string(number)) + ".json";
-    Made& made = import_->made[i];
+  for (Made& made : import_->made) {
+    const std::string name = made.file.filename().string(), images = made.file.stem().string() + kImages;
     if (const std::size_t at = made.report.find(made.file.string()); at != std::string::npos)
       made.report.replace(at, made.file.string().size(), name);
-    fs::rename(made.file, folder / name);
+    if (const fs::path from = made.file.parent_path() / images; fs::exists(from))
+      put_beside_film(from, folder / images);
+    put_beside_film(made.file, folder / name);
     made.file = folder / name;
-    import_->beside_film.push_back(made.file);
     files.push_back(name);
   }
   return files;
@@ -272,7 +293,7 @@ void LiveImporting::finish() {
     if (!project_.is_model()) listener_.commit(import_->page, step_for(files, actors), typed_for(files));
   } catch (...) {
     std::error_code ignored;
-    for (const fs::path& file : import_->beside_film) fs::remove(file, ignored);
+    for (const fs::path& file : import_->beside_film) fs::remove_all(file, ignored);
     throw;
   }
   Json reports = Json::array();

@@ -62,22 +62,26 @@ std::size_t size_of(std::size_t component) {
                                                   : 0;
 }
 
-double component_at(std::string_view bytes, std::size_t component) {
+double component_at(std::string_view bytes, std::size_t component, bool normalized) {
   std::uint32_t bits = 0;
   for (std::size_t i = size_of(component); i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
+  const auto part = [&](double number, double whole) { return normalized ? std::max(number / whole, -1.0) : number; };
   switch (component) {
     case 5126: return double(std::bit_cast<float>(bits));
-    case 5120: return std::max(double(static_cast<std::int8_t>(bits)) / 127, -1.0);
-    case 5121: return double(bits) / 255;
-    case 5122: return std::max(double(static_cast<std::int16_t>(bits)) / 32767, -1.0);
-    default: return double(bits) / 65535;
+    case 5120: return part(static_cast<std::int8_t>(bits), 127);
+    case 5121: return part(bits, 255);
+    case 5122: return part(static_cast<std::int16_t>(bits), 32767);
+    default: return part(bits, 65535);
   }
 }
 
 }  // namespace
 
-GltfBuffers::GltfBuffers(const std::filesystem::path& path, std::string_view bytes, const Tree& gltf)
-    : path_(path), gltf_(gltf), own_(is_binary(bytes) ? binary_chunk(bytes) : std::string_view()) {
+GltfBuffers::GltfBuffers(const std::filesystem::path& path, std::string_view bytes, const Tree& gltf, std::string whose)
+    : path_(path),
+      gltf_(gltf),
+      whose_(std::move(whose)),
+      own_(is_binary(bytes) ? binary_chunk(bytes) : std::string_view()) {
   for (const Tree& each : at(gltf, "buffers")) {
     const Tree& uri = at(each, "uri");
     std::string content;
@@ -121,9 +125,23 @@ GltfBuffers::Run GltfBuffers::run(const Tree& part, std::size_t count, std::size
   return {bytes, begin + first, stride, size, fits};
 }
 
-GltfNumbers GltfBuffers::read(const Tree& index) const {
+std::string_view GltfBuffers::bytes_at(const Tree& place) const {
+  const std::string_view bytes = buffer(at(place, "buffer"));
+  const std::size_t begin = number(at(place, "byteOffset"), 0), length = number(at(place, "byteLength"), 0);
+  if (begin > bytes.size() || length > bytes.size() - begin)
+    throw Failure("has " + whose_ + " beyond the end of its buffer", path_.string(), "export it again");
+  return bytes.substr(begin, length);
+}
+
+GltfNumbers GltfBuffers::read_quantized(const Tree& index) const {
+  const Tree& normalized = at(item(at(gltf_, "accessors"), index), "normalized");
+  return read(index, normalized.is_boolean() && normalized.get<bool>());
+}
+
+GltfNumbers GltfBuffers::read(const Tree& index, bool normalized) const {
   const auto refuse = [&](const char* problem) {
-    throw Failure("has an animation whose accessor " + index.dump() + " " + problem, path_.string(), "export it again");
+    throw Failure("has " + whose_ + " whose accessor " + index.dump() + " " + problem, path_.string(),
+                  "export it again");
   };
   const Tree& accessor = item(at(gltf_, "accessors"), index);
   if (accessor.is_null()) refuse("is not there");
@@ -137,14 +155,15 @@ GltfNumbers GltfBuffers::read(const Tree& index) const {
   if (has_view && !all.fits) refuse("is beyond the end of its buffer");
   if (!has_view) read.numbers.resize(count * read.width);
   for (std::size_t i = 0; has_view && i < count; ++i)
-    for (std::size_t j = 0; j < read.width; ++j) read.numbers.push_back(component_at(all.at(i, j), component));
-  if (is_sparse) replace_sparse(at(accessor, "sparse"), component, read);
+    for (std::size_t j = 0; j < read.width; ++j)
+      read.numbers.push_back(component_at(all.at(i, j), component, normalized));
+  if (is_sparse) replace_sparse(at(accessor, "sparse"), component, normalized, read);
   if (!std::ranges::all_of(read.numbers, [](double value) { return std::isfinite(value); }))
     refuse("has a number that is none");
   return read;
 }
 
-void GltfBuffers::replace_sparse(const Tree& sparse, std::size_t component, GltfNumbers& read) const {
+void GltfBuffers::replace_sparse(const Tree& sparse, std::size_t component, bool normalized, GltfNumbers& read) const {
   const Tree& indices = at(sparse, "indices");
   const std::size_t count = number(at(sparse, "count"), 0), type = number(at(indices, "componentType"), 0);
   const Run places = run(indices, count, type == kWholeNumbers ? kFloats : type, 1),
@@ -156,10 +175,10 @@ void GltfBuffers::replace_sparse(const Tree& sparse, std::size_t component, Gltf
       place = place << 8 | static_cast<unsigned char>(places.at(i, 0)[byte]);
     fits = place < read.count();
     for (std::size_t j = 0; fits && j < read.width; ++j)
-      read.numbers[place * read.width + j] = component_at(values.at(i, j), component);
+      read.numbers[place * read.width + j] = component_at(values.at(i, j), component, normalized);
   }
   if (!fits)
-    throw Failure("has an animation with a sparse accessor that reaches beyond its numbers", path_.string(),
+    throw Failure("has " + whose_ + " with a sparse accessor that reaches beyond its numbers", path_.string(),
                   "export it again");
 }
 

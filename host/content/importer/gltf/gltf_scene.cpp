@@ -8,7 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
-#include "host/content/importer/gltf/gltf_bounds.h"
+#include "host/content/importer/gltf/unpacked_gltf.h"
 #include "host/content/modeler/joint.h"
 
 namespace mars::importer {
@@ -74,9 +74,7 @@ std::vector<glm::dmat4> GltfScene::matrices_at(double time) const {
 }
 
 GltfScene read_gltf_scene(const std::filesystem::path& path, const std::string& animation) {
-  const std::string bytes = document::read_file(path, kLargestMeshFile);
-  const Tree gltf = gltf_json(bytes);
-  require_within_buffers(path, gltf);
+  const auto [bytes, gltf, unpacked] = gltf_bytes(path, document::read_file(path, kLargestMeshFile));
   GltfScene scene{gltf_nodes(path, gltf), {}, {}, {}};
   scene.animations = gltf_animations(path, gltf, GltfBuffers(path, bytes, gltf), animation);
   const Tree& lights = at(at(at(gltf, "extensions"), "KHR_lights_punctual"), "lights");

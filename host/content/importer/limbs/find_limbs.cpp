@@ -16,7 +16,7 @@ using modeler::Limb;
 using modeler::Side;
 using modeler::Trunk;
 
-constexpr std::size_t kMostJoints = 20'000;  // of files whose names are looked through
+constexpr std::size_t kMostJointsWithNames = 20'000;  // of files whose names are looked through
 
 std::size_t* joint_of(LimbDraft& draft, const std::string& limb) {
   for (std::size_t part = 0; part < std::size(modeler::kTrunkNames); ++part)
@@ -55,7 +55,7 @@ std::string made_text(const LimbDraft& draft) {
 std::optional<LimbDraft> draft_of(const FigureTree& tree, const std::optional<LimbMap>& map, bool may_guess) {
   std::optional<LimbDraft> draft;
   if (map) draft = limbs_by_map(*map);
-  if (!draft && tree.size() <= kMostJoints) draft = limbs_by_names(tree);
+  if (!draft && tree.size() <= kMostJointsWithNames) draft = limbs_by_names(tree);
   if (!draft && may_guess) draft = limbs_by_shape(tree);
   return draft;
 }

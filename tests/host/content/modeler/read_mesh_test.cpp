@@ -81,5 +81,33 @@ TEST(ReadMesh, NormalsMayNotPointInside) {
                    "faces[1]: has normals that point to its inside", "counter-clockwise"));
 }
 
+const std::string kRoof = with_faces("[[3,2,1,0], [0,1,4]]");
+
+// What is kept for textures changes nothing that is drawn.
+TEST(ReadMesh, PaintIsReadAndIgnored) {
+  const Mesh plain = *model_with(kRoof).shapes[0].mesh;
+  const std::string rows = "[[0,0], [1,0], [1,1], [0,1], [0.5,-2]]";
+  for (const std::string& paint :
+       {", \"uv\": " + rows, std::string(", \"colors\": [[0,0,0], [1,1,1], [0,0.5,1,0.25], [0,0,0], [1,0,0]]"),
+        ", \"uv\": " + rows + ", \"paint_faces\": [[4,3,2,1], [0,0,4]]",
+        std::string(", \"uv\": [[7,8]], \"colors\": [[0,0,1]], \"paint_faces\": [[0,0,0,0], [0,0,0]]")})
+    EXPECT_EQ(*model_with(kRoof + paint).shapes[0].mesh, plain) << paint;
+}
+
+TEST(ReadMesh, TellsWherePaintIsWrong) {
+  const std::string five = ", \"uv\": [[0,0], [0,0], [0,0], [0,0], [0,0]]";
+  EXPECT_TRUE(document::holds(failure(kRoof + ", \"uv\": [[0,0]]"), "mesh.uv: has 1 items"));
+  EXPECT_TRUE(document::holds(failure(kRoof + ", \"colors\": [[0,0,0]]"), "mesh.colors: has 1 items"));
+  EXPECT_TRUE(both(failure(kRoof + ", \"uv\": [[0,0], [0,0], [0,0], [0,0], [0]]"), "uv[4]: has 1 numbers", "write 2"));
+  EXPECT_TRUE(document::holds(failure(kRoof + ", \"uv\": [[0,0], [0,0], [0,2e9], [0,0], [0,0]]"), "uv[2][1]: is"));
+  EXPECT_TRUE(document::holds(failure(kRoof + five + ", \"colors\": [[0,0,0]], \"paint_faces\": []"), "colors: has 1"));
+  EXPECT_TRUE(document::holds(failure(kRoof + five + ", \"paint_faces\": [[0,0,0]]"), "paint_faces: has 1 items"));
+  EXPECT_TRUE(
+      document::holds(failure(kRoof + five + ", \"paint_faces\": [[0,0,0], [0,0,0]]"), "paint_faces[0]: has 3 items"));
+  EXPECT_TRUE(both(failure(kRoof + five + ", \"paint_faces\": [[0,0,0,0], [0,0,5]]"), "paint_faces[1][2]: is 5",
+                   "from 0 to 4"));
+  EXPECT_TRUE(document::holds(failure(kRoof + ", \"paint_faces\": [[0,0,0,0], [0,0,0]]"), "has no rows to number"));
+}
+
 }  // namespace
 }  // namespace mars::modeler
