@@ -23,7 +23,6 @@ namespace {
 
 constexpr std::chrono::seconds kLongestKill{1};  // until what the kernel holds is left
 constexpr int kFree = 10;                        // descriptors from here on are nobody's streams
-constexpr int kBackground = 19;                  // the lowest priority that still runs where processors are busy
 
 void lower_limit(int resource, std::uint64_t most) {
   rlimit now{};
@@ -50,7 +49,6 @@ bool set_up(const ProcessSetup& setup, pid_t parent, std::vector<int>& sources) 
     lower_limit(RLIMIT_CPU, static_cast<std::uint64_t>(setup.limits->processor_time.count()));
     lower_limit(RLIMIT_AS, setup.limits->memory);
   }
-  if (setup.in_background) setpriority(PRIO_PROCESS, 0, kBackground);
   return true;
 }
 

@@ -39,7 +39,6 @@ struct ProcessSetup {
   int signal_at_our_end = 0;              // it gets when this thread ends, however it ends; 0: none
   std::vector<int> default_signals{};     // that act on it as usual, though we may ignore them
   std::optional<ProcessLimits> limits{};  // with these it leaves no core file either
-  bool in_background = false;             // it runs while processors have nothing better to do
 };
 
 class Process {

@@ -1,3 +1,5 @@
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
@@ -34,6 +36,7 @@ constexpr const char* kPrefix = "mars-thumbnails-";
 constexpr const char* kSize = "320x320";            // of the pictures
 constexpr std::uintmax_t kLargest = 1 << 20;        // bytes of one
 constexpr child::ProcessLimits kLimits{30s, std::uint64_t{8} << 30};
+constexpr int kBehindAllElse = 19;  // the lowest priority that still runs where processors are busy
 constexpr int kLooks = 10;  // calls of look() between two looks at the folder
 
 class LiveThumbnails final : public Thumbnails {
@@ -136,10 +139,11 @@ void LiveThumbnails::draw(const ListedModel& model) {
   process_ = std::make_unique<HostProcess>(
       context_,
       [&](const child::ProcessSetup& setup) {
-        child::ProcessSetup behind = setup;
-        behind.in_background = true;
-        behind.limits = kLimits;
-        return std::make_unique<child::Process>(child::Command{{}, words}, behind);
+        child::ProcessSetup limited = setup;
+        limited.limits = kLimits;
+        auto process = std::make_unique<child::Process>(child::Command{{}, words}, limited);
+        setpriority(PRIO_PGRP, static_cast<id_t>(process->id()), kBehindAllElse);
+        return process;
       },
       0s,
       HostProcess::Listener{[](const std::string&) {},

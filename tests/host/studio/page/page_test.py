@@ -669,9 +669,8 @@ class Films(Page):
         self.assertEqual(card("man").accessible_name, "man")
         self.assertEqual(self.js("""
             const canvas = arguments[0].querySelector("canvas"), {width, height} = canvas;
-            const at = (x, y) => [...canvas.getContext("2d", {willReadFrequently: true}).getImageData(x * width, y * height, 1, 1).data.slice(0, 3)];
-            return [at(0.02, 0.5), at(0.5, 0.5), at(0.5, 0.12), at(0.5, 0.02)];""", card("man")),
-            [[31, 36, 51], [200, 40, 40], [200, 40, 40], [31, 36, 51]])  # it fills the place
+            const at = (x, y) => [...canvas.getContext("2d", {willReadFrequently: true}).getImageData(x * width, y * height, 1, 1).data][0] > 100;
+            return [at(0.02, 0.5), at(0.5, 0.5), at(0.5, 0.12), at(0.5, 0.02)];""", card("man")), [False, True, True, False])  # it fills the place
         self.assertIn("cut.json:3: is no list", card("cut.json").text)
         card("man").click()
         self.press(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
