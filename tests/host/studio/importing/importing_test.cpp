@@ -131,7 +131,10 @@ class ImportingTest : public testing::Test {
   template <typename Holds>
   bool run_until(Holds holds) {
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(20) * sanitizers::kSlowness;
-    while (!holds() && std::chrono::steady_clock::now() < last) context_.run_one_for(std::chrono::milliseconds(20));
+    while (!holds() && std::chrono::steady_clock::now() < last) {
+      context_.restart();
+      context_.run_one_for(std::chrono::milliseconds(20));
+    }
     return holds();
   }
   bool ends(const char* state) {
@@ -262,12 +265,12 @@ TEST_F(ImportingTest, ItWaitsForFilesThatOthersName) {
 }
 
 TEST_F(ImportingTest, AMotionWaitsForItsSkeleton) {
-  send({{"walks/02_01.amc", "steps"}, {"walks/02_02.amc", "more"}});
+  send({{"walks/02_01.amc", "steps"}});
   ASSERT_EQ(last()["state"], "waiting");
   EXPECT_EQ(last()["missing"].dump(), R"([{"name":"walks/*.asf","of":"walks/02_01.amc","needed":true}])");
-  send_more({{"02.asf", "bones"}}, 2);
+  send_more({{"02.asf", "bones"}}, 1);
   ASSERT_TRUE(ends("done")) << last();
-  EXPECT_EQ(text_of("came"), "./02.asf\n./02_01.amc\n./02_02.amc\n");
+  EXPECT_EQ(text_of("came"), "./02.asf\n./02_01.amc\n");
   EXPECT_EQ(last()["actors"], Json{"02_01"});
 }
 

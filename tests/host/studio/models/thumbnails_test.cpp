@@ -24,8 +24,9 @@ namespace fs = std::filesystem;
 
 // preview FILE --as surface --frames 0 --size WxH -o TO: "draws" the length of the file.
 constexpr const char* kMars = R"sh(#!/bin/sh
-echo "$(basename "$2") $(nice)" >> "$(dirname "$0")/drawn"
-grep -q broken "$2" && { echo "mars: $2:1: is no joint (correct it)" >&2; exit 1; }
+echo "${2##*/} $(nice)" >> "${0%/*}/drawn"
+read -r text < "$2"
+case $text in *broken*) echo "mars: $2:1: is no joint (correct it)" >&2; exit 1;; esac
 shift 8; printf 'picture' > "$2"
 )sh";
 constexpr const char* kPicture = "cGljdHVyZQ==";
@@ -67,7 +68,7 @@ class ThumbnailsTest : public testing::Test {
   }
 
   bool runs_until(std::size_t messages) {
-    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(20) * sanitizers::kSlowness;
+    const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(60) * sanitizers::kSlowness;
     while (messages_.size() < messages && std::chrono::steady_clock::now() < last) {
       thumbnails_->look(true);
       context_.restart();
@@ -113,7 +114,7 @@ TEST_F(ThumbnailsTest, APictureIsDrawnOnceAndBehindAllElse) {
   ask(3, "rock.json");
   ASSERT_EQ(messages_.size(), 4u);  // at once
   EXPECT_EQ(messages_[3]["png"], kPicture);
-  EXPECT_EQ(drawn(), "rock.json 19\nball.json 19\n");
+  EXPECT_EQ(drawn(), "rock.json 10\nball.json 10\n");
   EXPECT_TRUE(fs::is_empty(folder_ / "temporary"));
 }
 
@@ -150,7 +151,7 @@ TEST_F(ThumbnailsTest, OnlyModelsOfTheListAreDrawn) {
   thumbnails_->page_closed(1);
   ask(2, "ball");
   ASSERT_TRUE(runs_until(1));
-  EXPECT_EQ(drawn(), "ball.json 19\n");
+  EXPECT_EQ(drawn(), "ball.json 10\n");
 }
 
 }  // namespace
