@@ -5,6 +5,7 @@ from harness import *
 from studio_browser import CTRL
 from studio_browser_test import StudioInBrowser
 
+PATIENCE = 90  # seconds for pictures that wait for time that nothing else takes
 ROCK = """mtllib rock.mtl
 usemtl red
 v 0 0 0\nv 1 0 0\nv 0 1.5 0\nv 0 0 1
@@ -157,15 +158,15 @@ class ImportTest(StudioInBrowser):
     # Of the library, of what came, and of a file that cannot be read.
     def thumbnails(self):
         (self.films / "cut.json").write_text('{"joints": [{"name": "a"},')
-        self.until("the picture of what came", "document.querySelector('#import [data-model=\"stride.json\"] canvas')?.ariaLabel === 'stride.json'")
+        self.browser.until("the picture of what came", "document.querySelector('#import [data-model=\"stride.json\"] canvas')?.ariaLabel === 'stride.json'", PATIENCE)
         card = "document.querySelector('[data-key=\"model.{}\"] .thumbnail')"
         self.browser.run(f"{card.format('rock.json')}.scrollIntoView({{block: 'center'}})")
-        self.until("a picture", f"{card.format('rock.json')}.dataset.state === 'there'")
+        self.browser.until("a picture", f"{card.format('rock.json')}.dataset.state === 'there'", PATIENCE)
         self.assertGreater(self.browser.run(f"""
             const canvas = {card.format('rock.json')}.querySelector("canvas");
             const {{data}} = canvas.getContext("2d", {{willReadFrequently: true}}).getImageData(0, 0, canvas.width, canvas.height);
             return data.filter((red, at) => at % 4 === 0 && red > 1.5 * data[at + 1] && red > 1.5 * data[at + 2]).length;"""), 500)  # it is red
-        self.until("the broken file", f"{card.format('cut.json')}?.scrollIntoView({{block: 'center'}}) ?? {card.format('cut.json')}?.dataset.state === 'problem'")
+        self.browser.until("the broken file", f"{card.format('cut.json')}?.scrollIntoView({{block: 'center'}}) ?? {card.format('cut.json')}?.dataset.state === 'problem'", PATIENCE)
         self.assertIn("cut.json:1", self.browser.run(f"return {card.format('cut.json')}.innerText"))
         (self.films / "cut.json").unlink()
 

@@ -79,7 +79,7 @@ class LiveThumbnails final : public Thumbnails {
   std::set<PageNumber> pages_;  // that know the list
   std::map<std::string, Drawn> drawn_;
   std::map<std::string, std::set<PageNumber>> asked_;
-  std::deque<std::string> due_;  // names of asked_, the first asked first
+  std::deque<std::string> due_;  // names of asked_: files, which a person may just have brought, then the library's
   std::unique_ptr<document::HeldFolder> folder_;
   std::unique_ptr<HostProcess> process_;  // it goes before its folder
 };
@@ -104,7 +104,7 @@ void LiveThumbnails::ask(PageNumber page, const std::string& name) {
     throw Failure("is no model of the library or beside this file", document::in_quotes(document::printable(name)), "");
   const auto drawn = drawn_.find(name);
   if (drawn != drawn_.end() && drawn->second.version == model->version) return listener_.tell(page, answer(name));
-  if (asked_[name].empty()) due_.push_back(name);
+  if (asked_[name].empty()) due_.insert(model->kind == "file" ? due_.begin() : due_.end(), name);
   asked_[name].insert(page);
 }
 

@@ -69,7 +69,10 @@ export class ImportPanel {
   // That one import is under way already.
   remind() { this.place.animate([{transform: "none"}, {transform: "translateY(-6px)"}, {transform: "none"}], 250); }
 
-  #made(file, report) { return element("section", {class: "made"}, this.models.picture(file), element("div", {}, reportParts(report))); }
+  #made(file, report) {
+    const [name, what, rows] = reportParts(report);
+    return element("section", {class: "made"}, element("div", {class: "model"}, this.models.picture(file), element("div", {}, name, what)), rows);
+  }
 
   #going(name) {
     clearInterval(this.#timer);

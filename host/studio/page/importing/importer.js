@@ -10,7 +10,7 @@ const listed = (files) => files.map(({file, name}) => ({name, size: file.size}))
 const hasFiles = ({dataTransfer}) => dataTransfer?.types.includes("Files") ?? false;
 
 export class Importer {
-  #going = null;    // {files, name, number, sent, waits}: the import under way; how many files are sent; whether it waits for more
+  #going = null;    // {files, name, number, sent, state}: the import under way; how many files are sent; what the studio does
   #request = null;  // that sends a file
 
   options = {height: "", front: ""};  // of `mars import`; "": as is usual
@@ -32,10 +32,10 @@ export class Importer {
   choose() { this.input.click(); }
 
   async take(files) {
-    if (this.#going?.waits) return this.#takeMore(files);
+    if (this.#going?.state === "waiting") return this.#takeMore(files);
     if (this.#going) return this.panel.remind();
     if (files.length === 0) return;
-    this.#going = {files, name: files.length === 1 ? files[0].name : `${files.length} files`, number: null, sent: 0, waits: false};
+    this.#going = {files, name: files.length === 1 ? files[0].name : `${files.length} files`, number: null, sent: 0, state: ""};
     if (this.#send({do: "import", files: listed(files), options: this.options})) this.panel.sending(this.#going.name, 0);
   }
 
@@ -43,7 +43,7 @@ export class Importer {
   #takeMore(files) {
     const there = new Set(this.#going.files.map(({name}) => name)), more = files.filter(({name}) => !there.has(name));
     if (more.length === 0) return this.panel.remind();
-    this.#going.waits = false;
+    this.#going.state = "";
     this.#going.files.push(...more);
     this.#send({do: "import_more", files: listed(more)});
   }
@@ -87,16 +87,14 @@ export class Importer {
 
   #hear({state, number, name, text, missing, seconds, ...made}) {
     if (!this.#going) return;
+    if (state === "receiving") this.#going.number = number;
+    else if (number !== this.#going.number) return;  // of an import that this page has stopped
+    this.#going.state = state;
     if (state === "receiving") {
-      this.#going.number = number;
       this.#sendFiles();
-    } else if (number !== this.#going.number) {
-      return;  // of an import that this page has stopped
     } else if (state === "waiting") {
-      this.#going.waits = true;
       this.panel.waiting(missing, seconds);
     } else if (state === "reading") {
-      this.#going.waits = false;
       this.panel.reading(name);
     } else {
       this.#end();
@@ -118,7 +116,8 @@ export class Importer {
     going.sent = going.files.length;
     let sent = 0;
     for (const [at, {file}] of files.entries()) {
-      const problem = await this.#sendFile(first + at, file, (bytes) => this.panel.sending(name, (sent + bytes) / whole));
+      const progress = (bytes) => { if (going.state === "receiving") this.panel.sending(name, (sent + bytes) / whole); };  // it may come late
+      const problem = await this.#sendFile(first + at, file, progress);
       if (this.#going !== going) return;
       if (problem !== null) return this.#stop(problem);
       sent += file.size;

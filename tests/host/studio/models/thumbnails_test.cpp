@@ -118,6 +118,14 @@ TEST_F(ThumbnailsTest, APictureIsDrawnOnceAndBehindAllElse) {
   EXPECT_TRUE(fs::is_empty(folder_ / "temporary"));
 }
 
+TEST_F(ThumbnailsTest, FilesComeBeforeTheLibrary) {
+  ask(1, "ball");
+  ask(1, "box");
+  ask(1, "rock.json");
+  ASSERT_TRUE(runs_until(3));
+  EXPECT_EQ(drawn(), "rock.json 10\nball.json 10\nbox.json 10\n");
+}
+
 TEST_F(ThumbnailsTest, NothingIsBegunWhileAHandMoves) {
   ask(1, "rock.json");
   for (int look = 0; look < 30; ++look) {
