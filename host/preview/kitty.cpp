@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <span>
 
+#include "host/content/document/base64.h"
 #include "host/images/picture_file.h"
 #include "host/preview/terminal_picture.h"
 
@@ -8,20 +9,6 @@ namespace mars::preview {
 namespace {
 
 constexpr std::size_t kChunk = 4096;  // bytes of text at a time, the protocol's limit
-
-std::string base64(std::span<const std::byte> bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const auto at = [&](std::size_t k) {
-      return i + k < bytes.size() ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u;
-    };
-    const std::uint32_t three = at(0) << 16 | at(1) << 8 | at(2);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
 
 class Kitty : public TerminalPicture {
  public:
@@ -32,7 +19,7 @@ class Kitty : public TerminalPicture {
 
   const std::string& shown(const images::Image& image) override {
     const std::string picture =
-        base64(images::encode_picture(images::PictureFormat::png, image.width, image.height, image.pixels));
+        document::base64(images::encode_picture(images::PictureFormat::png, image.width, image.height, image.pixels));
     const int before = number_;
     number_ = 3 - number_;
     text_ = "\x1b[?2026h\x1b[H";

@@ -2,9 +2,11 @@
 
 #include <utility>
 
+#include "host/child/environment.h"
 #include "host/child/programs.h"
 #include "host/studio/importing/importing.h"
 #include "host/studio/link/host_link.h"
+#include "host/studio/models/thumbnails.h"
 #include "host/studio/rendering/rendering.h"
 #include "host/studio/serve_studio.h"
 
@@ -21,8 +23,14 @@ void run_studio(const StudioSettings& settings) {
     const auto importing = [&context, file](const Project& project, Importing::Listener listener) {
       return make_importing(context, {file, child::own_file()}, project, std::move(listener));
     };
+    const auto thumbnails = [&context, file](Thumbnails::Listener listener) {
+      return make_thumbnails(context,
+                             {file, child::own_file(), child::temporary_folder(child::own_environment())},
+                             std::move(listener));
+    };
     const NewFile begins = settings.film ? NewFile::film : NewFile::model;
-    return Parts{open_project(file, std::filesystem::current_path(), begins), link, make_stage, rendering, importing};
+    return Parts{open_project(file, std::filesystem::current_path(), begins), link, make_stage, rendering, importing,
+                 thumbnails};
   });
 }
 

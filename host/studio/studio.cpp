@@ -25,6 +25,11 @@ std::uint32_t line_in(const std::string& where) {
   return document::number_in<std::uint32_t>(where.substr(begin, end - begin)).value_or(0);
 }
 
+// What pages send by themselves, too.
+bool is_of_a_hand_at_rest(const Json& message) {
+  return message.at("do") == "painted" || Thumbnails::is_for_it(message);
+}
+
 struct Step {
   const char* name;
   void (*take)(Project&, const Json&);
@@ -56,6 +61,7 @@ Studio::Studio(Parts parts, web::Pages& pages)
                   [this](PageNumber page, const Json& step, const std::vector<editing::Command>& before) {
                     commit_import(page, step, before);
                   }});
+  thumbnails_ = parts.make_thumbnails({[this](PageNumber page, const Json& message) { pages_.tell(page, message); }});
 }
 
 RendererLink::Listener Studio::link_listener() {
@@ -134,12 +140,17 @@ void Studio::answer_failure(PageNumber page, const Json& message, const std::fun
 
 // Whether the history may be another.
 bool Studio::execute(PageNumber page, const Json& message) {
+  if (!is_of_a_hand_at_rest(message)) at_rest_ = false;
   if (Rendering::is_for_it(message)) {
     rendering_->take(page, message);
     return false;
   }
   if (Importing::is_for_it(message)) {
     importing_->take(page, message);
+    return false;
+  }
+  if (Thumbnails::is_for_it(message)) {
+    thumbnails_->take(page, message);
     return false;
   }
   if (AnimationPages::is_for_it(message)) {
@@ -174,6 +185,7 @@ void Studio::page_closed(PageNumber page) {
     animation_.page_closed(page);
     rendering_->page_closed(page);
     importing_->page_closed(page);
+    thumbnails_->page_closed(page);
     stage_->page_closed(page);
     if (gesture_of_ == page && project_->in_gesture()) project_->cancel();
     announce(before, false);
@@ -184,6 +196,7 @@ void Studio::look_at_files() {
   answer_failure(Stage::kAllPages, {}, [&] {
     const Shown before = shown();
     announce(before, project_->look_at_files());
+    thumbnails_->look(std::exchange(at_rest_, !project_->in_gesture()));
   });
 }
 

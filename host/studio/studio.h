@@ -12,6 +12,7 @@
 #include "hal/failure/failure.h"
 #include "host/studio/animation_pages.h"
 #include "host/studio/importing/importing.h"
+#include "host/studio/models/thumbnails.h"
 #include "host/studio/rendering/rendering.h"
 #include "host/studio/web/pages.h"
 
@@ -24,6 +25,7 @@ struct Parts {
   std::function<std::unique_ptr<Stage>(Project&, RendererLink&, Stage::Listener)> make_stage;
   std::function<std::unique_ptr<Rendering>(Rendering::Listener)> make_rendering;
   std::function<std::unique_ptr<Importing>(const Project&, Importing::Listener)> make_importing;
+  std::function<std::unique_ptr<Thumbnails>(Thumbnails::Listener)> make_thumbnails;
 };
 
 class Studio {
@@ -38,7 +40,8 @@ class Studio {
   void page_closed(PageNumber page);
   // A file that a page begins to send. Throws Failure where no import waits for it.
   std::unique_ptr<Upload> upload(const UploadedFile& file) { return importing_->upload(file); }
-  // Somebody else may have changed the files; called a few times a second.
+  // Somebody else may have changed the files; and there may be time for what nobody waits for. Called a few times a
+  // second.
   void look_at_files();
 
  private:
@@ -70,8 +73,10 @@ class Studio {
   std::unique_ptr<Stage> stage_;
   std::unique_ptr<Rendering> rendering_;
   std::unique_ptr<Importing> importing_;
+  std::unique_ptr<Thumbnails> thumbnails_;
   AnimationPages animation_;
   std::optional<PageNumber> gesture_of_;
+  bool at_rest_ = true;  // no page has moved anything since the last look
   std::string trouble_;  // the renderer's
   std::uint32_t nodes_ = 0, machines_ = 0;
 };

@@ -5,6 +5,7 @@ from harness import *
 from studio_browser import CTRL
 from studio_browser_test import StudioInBrowser
 
+PATIENCE = 90  # seconds for pictures that wait for time that nothing else takes
 ROCK = """mtllib rock.mtl
 usemtl red
 v 0 0 0\nv 1 0 0\nv 0 1.5 0\nv 0 0 1
@@ -30,10 +31,46 @@ MOTION
 Frames: 48
 Frame Time: 0.0416667
 """ + "".join(f"0 1 {frame / 24} 0 0 0 0 {frame % 24} 0\n" for frame in range(48))
+ASF = """:version 1.10
+:name walker
+:units
+  mass 1.0
+  length 1.0
+  angle deg
+:root
+   order TX TY TZ RX RY RZ
+   axis XYZ
+   position 0 0 0
+   orientation 0 0 0
+:bonedata
+  begin
+     id 1
+     name thigh
+     direction 0 -1 0
+     length 2
+     axis 0 0 0 XYZ
+     dof rx ry rz
+     limits (-120 40)
+            (-30 30)
+            (-30 30)
+  end
+:hierarchy
+  begin
+    root thigh
+  end
+"""
+AMC = ":FULLY-SPECIFIED\n:DEGREES\n" + "".join(f"{frame}\nroot 0 2 0 0 0 0\nthigh {-frame % 90} 0 0\n" for frame in range(1, 61))
+CORNERS = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+TRIANGLE = json.dumps({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": "sail"}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+    "bufferViews": [{"buffer": 0, "byteLength": len(CORNERS)}],
+    "buffers": [{"uri": "data/corners.bin", "byteLength": len(CORNERS)}]})
 # As a person's drop, whose files the page reads.
 DROP = """
 const data = new DataTransfer();
-for (const [name, text] of arguments[0]) data.items.add(new File([text], name));
+for (const [name, content] of arguments[0]) data.items.add(new File([typeof content === "string" ? content : new Uint8Array(content)], name));
 for (const kind of ["dragover", "drop"])
   document.querySelector("#views").dispatchEvent(new DragEvent(kind, {dataTransfer: data, bubbles: true, cancelable: true}));
 """
@@ -103,6 +140,36 @@ class ImportTest(StudioInBrowser):
         self.assertEqual(film["frames"], 48)
         self.assertGreater(len(film["actors"][-1]["keys"]), 1)
 
+    # The figure is dropped first, and then what it needs, which belongs into a folder.
+    def companions(self):
+        self.browser.run(DROP, [["sail.gltf", TRIANGLE]])
+        text = self.panel("waiting")
+        for words in ("data/corners.bin of sail.gltf", "Drop them on the page, too", "Waits 1:5"):
+            self.assertIn(words, text)
+        self.assertEqual(self.browser.run("return document.querySelectorAll('[data-key=\"import.without\"]').length"), 0)
+        self.browser.run(DROP, [["corners.bin", list(CORNERS)]])
+        self.assertIn("3 vertices, 1 face", self.panel("done"))
+        self.browser.run(DROP, [["stride.amc", AMC]])
+        self.assertIn("The skeleton (.asf) of stride.amc", self.panel("waiting"))
+        self.browser.run(DROP, [["stride.amc", AMC], ["walker.asf", ASF]])
+        self.assertIn("actor 'stride'", self.panel("done"))
+        self.assertEqual(self.actors()[-2:], ["sail", "stride"])
+
+    # Of the library, of what came, and of a file that cannot be read.
+    def thumbnails(self):
+        (self.films / "cut.json").write_text('{"joints": [{"name": "a"},')
+        self.browser.until("the picture of what came", "document.querySelector('#import [data-model=\"stride.json\"] canvas')?.ariaLabel === 'stride.json'", PATIENCE)
+        card = "document.querySelector('[data-key=\"model.{}\"] .thumbnail')"
+        self.browser.run(f"{card.format('rock.json')}.scrollIntoView({{block: 'center'}})")
+        self.browser.until("a picture", f"{card.format('rock.json')}.dataset.state === 'there'", PATIENCE)
+        self.assertGreater(self.browser.run(f"""
+            const canvas = {card.format('rock.json')}.querySelector("canvas");
+            const {{data}} = canvas.getContext("2d", {{willReadFrequently: true}}).getImageData(0, 0, canvas.width, canvas.height);
+            return data.filter((red, at) => at % 4 === 0 && red > 1.5 * data[at + 1] && red > 1.5 * data[at + 2]).length;"""), 500)  # it is red
+        self.browser.until("the broken file", f"{card.format('cut.json')}?.scrollIntoView({{block: 'center'}}) ?? {card.format('cut.json')}?.dataset.state === 'problem'", PATIENCE)
+        self.assertIn("cut.json:1", self.browser.run(f"return {card.format('cut.json')}.innerText"))
+        (self.films / "cut.json").unlink()
+
     def broken(self):
         before = self.file.read_text()
         self.browser.run(DROP, [["broken.obj", "v 0 0 0\nf 1 2 9\n"], ["broken.mtl", RED]])
@@ -119,8 +186,10 @@ class ImportTest(StudioInBrowser):
         self.pictures_in_all_views()
         self.by_button()
         self.by_drop()
+        self.companions()
+        self.thumbnails()
         self.broken()
-        self.assertEqual(self.left(), ["film.json", "nod.json", "rock.json"])
+        self.assertEqual(self.left(), ["film.json", "nod.json", "rock.json", "sail.json", "stride.json"])
         self.no_complaint()
         self.assertEqual(studio.end(), (0, ""))
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
@@ -80,18 +81,25 @@ std::string name_for(const std::string& file) {
 
 }  // namespace
 
-ImportRequest import_request(const Json& message) {
+void add_files(ImportRequest& request, const Json& message) {
   const Json& list = message.at("files");
-  if (!list.is_array() || list.empty() || list.size() > kMostImportedFiles)
+  std::vector<ImportedFile> files = request.files;
+  if (!list.is_array() || list.empty() || list.size() > kMostImportedFiles - files.size())
     throw Failure("one import takes 1 to " + std::to_string(kMostImportedFiles) + " files", "", "import fewer at once");
-  ImportRequest request;
   std::set<std::string> names;
+  for (const ImportedFile& file : files) names.insert(file.name);
   for (const Json& file : list) {
-    request.files.push_back(read_file_of(file));
-    if (!names.insert(request.files.back().name).second)
-      throw Failure("is there twice", request.files.back().name, "import one of the two");
+    files.push_back(read_file_of(file));
+    if (!names.insert(files.back().name).second)
+      throw Failure("is there twice", files.back().name, "import one of the two");
   }
-  check_size(request.files);
+  check_size(files);
+  request.files = std::move(files);
+}
+
+ImportRequest import_request(const Json& message) {
+  ImportRequest request;
+  add_files(request, message);
   if (const auto options = message.find("options"); options != message.end()) request.options = read_options(*options);
   return request;
 }

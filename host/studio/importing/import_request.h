@@ -29,6 +29,9 @@ struct ImportRequest {
 // plain, or comes twice, and where the files are too many or too long.
 ImportRequest import_request(const Json& message);
 
+// Of a message {"do": "import_more", "files"}: adds files to those that came. Throws Failure as import_request() does.
+void add_files(ImportRequest& request, const Json& message);
+
 // One run of `mars import`: of what it is run, and what the model or film that it makes is to be named.
 struct ImportJob {
   std::string main;               // the name of a file

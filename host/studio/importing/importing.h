@@ -3,6 +3,7 @@
 // are on the thread that runs the io_context.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -29,7 +30,7 @@ class Importing {
 
   virtual ~Importing() = default;
 
-  // Whether the message is for an import: import or stop_import.
+  // Whether the message is for an import: import, import_more or stop_import.
   static bool is_for_it(const Json& message);
   // Such a message. Throws Failure or Json::exception where it makes no sense.
   virtual void take(PageNumber page, const Json& message) = 0;
@@ -41,9 +42,14 @@ class Importing {
 struct ImportingSettings {
   std::filesystem::path file;  // that is open: models are made beside it
   std::filesystem::path mars;  // the program
+  // How long an import waits for a page that sends nothing of the files that it announced, and for files that those
+  // name.
+  std::chrono::milliseconds for_files = std::chrono::minutes(1);
+  std::chrono::milliseconds for_companions = std::chrono::minutes(2);
 };
 
-// The project must outlive it. With its end an import ends, and leaves nothing.
+// The project must outlive it. With its end an import ends, and leaves nothing. It begins with removing what imports of
+// killed studios left beside the file.
 std::unique_ptr<Importing> make_importing(boost::asio::io_context& context, const ImportingSettings& settings,
                                           const Project& project, Importing::Listener listener);
 

@@ -1,7 +1,10 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <algorithm>
+#include <chrono>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +16,7 @@
 #include "host/content/document/folder_lock.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
+#include "host/studio/importing/companions.h"
 #include "host/studio/importing/import_request.h"
 #include "host/studio/importing/importing.h"
 #include "host/studio/importing/upload_folder.h"
@@ -49,11 +53,18 @@ struct Import {
   UploadFolder folder;
   std::vector<bool> begun;            // files that the page sends or has sent
   std::size_t there = 0;              // files that are whole
+  std::vector<Companion> missing;     // while it waits for them
   std::vector<Made> made;             // of the jobs, in their order
   std::vector<fs::path> beside_film;  // models and folders of images that have been put there
   std::string printed;                // by the run that goes on
   bool ended = false;                 // what still comes for it is refused
 };
+
+std::string in_words(std::chrono::milliseconds time) {
+  const auto seconds = std::chrono::ceil<std::chrono::seconds>(time).count();
+  if (seconds < 60) return document::counted(static_cast<std::size_t>(seconds), "second", "seconds");
+  return document::counted(static_cast<std::size_t>(seconds / 60), "minute", "minutes");
+}
 
 class LiveImporting;
 
@@ -79,10 +90,17 @@ class UploadToFile final : public Upload {
 class LiveImporting final : public Importing {
  public:
   LiveImporting(asio::io_context& context, ImportingSettings settings, const Project& project, Listener listener)
-      : context_(context), settings_(std::move(settings)), project_(project), listener_(std::move(listener)) {}
+      : context_(context),
+        settings_(std::move(settings)),
+        project_(project),
+        listener_(std::move(listener)),
+        patience_(context) {
+    remove_abandoned_uploads(fs::absolute(settings_.file).parent_path());
+  }
 
   void take(PageNumber page, const Json& message) override {
     if (message.at("do") == "import") return begin(page, message);
+    if (message.at("do") == "import_more") return take_more(page, message);
     if (import_ && import_->page == page) end("stopped", "");
   }
   std::unique_ptr<Upload> upload(const UploadedFile& file) override;
@@ -90,11 +108,18 @@ class LiveImporting final : public Importing {
     if (import_ && import_->page == page) end("stopped", "");
   }
 
+  void piece_came() { wait(settings_.for_files, [this] { files_did_not_come(); }); }
   void file_came();
   void upload_cut(const std::string& reason) { end("failed", reason); }
 
  private:
   void begin(PageNumber page, const Json& message);
+  void take_more(PageNumber page, const Json& message);
+  void all_came();
+  void files_did_not_come();
+  void companions_did_not_come();
+  void wait(std::chrono::milliseconds longest, const std::function<void()>& then);
+  void stop_waiting();
   void run_next();
   using PathOf = std::function<fs::path(const std::string& file)>;
   std::vector<std::string> words_of(const ImportJob& job, const PathOf& path_of, const fs::path& to) const;
@@ -115,6 +140,8 @@ class LiveImporting final : public Importing {
   const ImportingSettings settings_;
   const Project& project_;
   const Listener listener_;
+  asio::steady_timer patience_;
+  std::uint64_t waits_ = 0;
   std::uint32_t last_number_ = 0;
   std::shared_ptr<Import> import_;  // null: none goes on
   std::unique_ptr<HostProcess> process_;
@@ -134,6 +161,7 @@ std::shared_ptr<Import> UploadToFile::import() const {
 void UploadToFile::take(std::string_view piece) {
   import();
   file_.write(piece);
+  importing_.piece_came();
 }
 
 void UploadToFile::end() {
@@ -146,6 +174,59 @@ void LiveImporting::begin(PageNumber page, const Json& message) {
   if (import_) throw Failure("an import is under way", "", "wait until it is done, or stop it");
   import_ = std::make_shared<Import>(++last_number_, page, message, fs::absolute(settings_.file).parent_path());
   tell("receiving", Json::object());
+  piece_came();
+}
+
+// Without files the import goes on without what is missing.
+void LiveImporting::take_more(PageNumber page, const Json& message) {
+  if (!import_ || import_->page != page || import_->missing.empty()) throw Failure("no import waits for files", "", "");
+  if (message.at("files").empty()) return attempt([this] { run_next(); });
+  add_files(import_->request, message);
+  import_->jobs = import_jobs(import_->request.files);
+  import_->begun.resize(import_->request.files.size());
+  import_->missing.clear();
+  tell("receiving", Json::object());
+  piece_came();
+}
+
+void LiveImporting::wait(std::chrono::milliseconds longest, const std::function<void()>& then) {
+  patience_.expires_after(longest);
+  patience_.async_wait([this, number = ++waits_, then](auto error) {
+    if (!error && number == waits_) then();
+  });
+}
+
+void LiveImporting::stop_waiting() {
+  ++waits_;  // a call that is due already comes in vain
+  patience_.cancel();
+}
+
+void LiveImporting::files_did_not_come() {
+  std::string names;
+  for (std::size_t i = 0; i < import_->begun.size(); ++i)
+    if (!import_->begun[i]) names += (names.empty() ? "" : ", ") + document::printable(import_->request.files[i].name);
+  end("failed", (names.empty() ? "the rest of a file" : names) + " did not come: the page sent nothing for " +
+                    in_words(settings_.for_files) + " (import the files again, together)");
+}
+
+void LiveImporting::all_came() {
+  import_->missing = missing_companions(import_->folder, import_->request, import_->jobs);
+  if (import_->missing.empty()) return run_next();
+  Json missing = Json::array();
+  for (const Companion& each : import_->missing)
+    missing.push_back({{"name", each.name}, {"of", each.of}, {"needed", each.needed}});
+  const auto seconds = std::chrono::ceil<std::chrono::seconds>(settings_.for_companions);
+  tell("waiting", {{"missing", std::move(missing)}, {"seconds", seconds.count()}});
+  wait(settings_.for_companions, [this] { companions_did_not_come(); });
+}
+
+// What is not needed is left out.
+void LiveImporting::companions_did_not_come() {
+  std::vector<Companion> needed;
+  std::ranges::copy_if(import_->missing, std::back_inserter(needed), &Companion::needed);
+  if (needed.empty()) return attempt([this] { run_next(); });
+  end("failed", names_of(needed) + " did not come within " + in_words(settings_.for_companions) + ": " +
+                    document::printable(needed.front().of) + " cannot be read without (import them together)");
 }
 
 std::unique_ptr<Upload> LiveImporting::upload(const UploadedFile& file) {
@@ -164,7 +245,7 @@ std::unique_ptr<Upload> LiveImporting::upload(const UploadedFile& file) {
 }
 
 void LiveImporting::file_came() {
-  if (++import_->there == import_->request.files.size()) attempt([this] { run_next(); });
+  if (++import_->there == import_->request.files.size()) attempt([this] { all_came(); });
 }
 
 // What fails ends the import, whose page hears why.
@@ -193,6 +274,8 @@ std::vector<std::string> LiveImporting::words_of(const ImportJob& job, const Pat
 }
 
 void LiveImporting::run_next() {
+  stop_waiting();
+  import_->missing.clear();
   const ImportJob& job = import_->jobs[import_->made.size()];
   const fs::path to = import_->folder.make_folder(import_->made.size()) / (unused_name(job.name) + ".json");
   std::vector<std::string> words = words_of(
@@ -320,6 +403,7 @@ void LiveImporting::end(const char* state, const std::string& text, Json more) {
   more["text"] = plain(text);
   import_->ended = true;
   tell(state, std::move(more));
+  stop_waiting();
   process_.reset();
   import_.reset();
 }
@@ -327,7 +411,7 @@ void LiveImporting::end(const char* state, const std::string& text, Json more) {
 }  // namespace
 
 bool Importing::is_for_it(const Json& message) {
-  return message.at("do") == "import" || message.at("do") == "stop_import";
+  return message.at("do") == "import" || message.at("do") == "import_more" || message.at("do") == "stop_import";
 }
 
 std::unique_ptr<Importing> make_importing(asio::io_context& context, const ImportingSettings& settings,

@@ -1,7 +1,6 @@
 #include "host/studio/importing/upload_folder.h"
 
 #include <fcntl.h>
-#include <stdlib.h>
 
 #include <cerrno>
 #include <utility>
@@ -13,6 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPrefix = ".mars-import-";
+
 void make_folders(const fs::path& path) {
   std::error_code problem;
   fs::create_directories(path, problem);
@@ -21,18 +22,11 @@ void make_folders(const fs::path& path) {
 
 }  // namespace
 
-UploadFolder::UploadFolder(const fs::path& beside) {
-  std::string name = (beside / ".mars-import-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) document::fail_file("make a folder for the import in", beside, errno);
-  path_ = name;
-}
+UploadFolder::UploadFolder(const fs::path& beside) : folder_(beside, kPrefix) {}
 
-UploadFolder::~UploadFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
+void remove_abandoned_uploads(const fs::path& beside) { document::remove_abandoned_folders(beside, kPrefix); }
 
-fs::path UploadFolder::folder_of(std::size_t run) const { return path_ / "made" / std::to_string(run); }
+fs::path UploadFolder::folder_of(std::size_t run) const { return folder_.path() / "made" / std::to_string(run); }
 
 fs::path UploadFolder::make_folder(std::size_t run) const {
   make_folders(folder_of(run));

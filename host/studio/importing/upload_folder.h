@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "host/child/descriptor.h"
+#include "host/content/document/held_folder.h"
 
 namespace mars::studio {
 
@@ -15,20 +16,20 @@ class UploadFolder {
  public:
   // Throws Failure where no folder can be made in that one.
   explicit UploadFolder(const std::filesystem::path& beside);
-  ~UploadFolder();
-  UploadFolder(const UploadFolder&) = delete;
-  UploadFolder& operator=(const UploadFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const std::filesystem::path& path() const { return folder_.path(); }
   // `name`: plain, "tex/skin.png".
-  std::filesystem::path uploaded(const std::string& name) const { return path_ / "from" / name; }
+  std::filesystem::path uploaded(const std::string& name) const { return folder_.path() / "from" / name; }
   // Where the import's run of this number puts what it makes; make_folder() makes it.
   std::filesystem::path folder_of(std::size_t run) const;
   std::filesystem::path make_folder(std::size_t run) const;
 
  private:
-  std::filesystem::path path_;
+  document::HeldFolder folder_;
 };
+
+// Of studios that were killed.
+void remove_abandoned_uploads(const std::filesystem::path& beside);
 
 // A new file that is written piece by piece. Throws Failure where it is there already, or cannot be written.
 class WrittenFile {

@@ -181,18 +181,6 @@ Json shapes() {
   return shapes;
 }
 
-// What `mars film FILM add` takes by name.
-Json library() {
-  Json library = Json::array();
-  const auto add = [&](const char* kind, std::span<const modeler::LibraryFigure> all) {
-    for (const modeler::LibraryFigure& each : all)
-      library.push_back({{"name", each.name}, {"what", each.what}, {"kind", kind}});
-  };
-  add("figure", modeler::figure_library());
-  add("object", modeler::object_library());
-  return library;
-}
-
 Json shown_joint(const animator::Film& film, std::size_t actor, std::size_t joint) {
   Json json{{"actor", film.actors[actor].name}};
   if (joint != modeler::kNone) json["joint"] = film.models[film.actors[actor].model].joints[joint].name;
@@ -284,7 +272,6 @@ void describe_film(Json& project, const animator::Film& film, const Json& json, 
   project["materials"] = std::move(materials);
   project["keys"] = keys::keys_of_pages();
   add_values(project["settings"], keys::object("film"), static_cast<unsigned>(film.color), json);
-  project["library"] = library();
 }
 
 void describe_model(Json& project, const animator::Film& film, const Json& json, std::uint32_t frame) {

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <utility>
+
+#include "host/content/document/base64.h"
 
 namespace mars::studio {
 namespace {
@@ -11,19 +14,6 @@ namespace {
 constexpr int kMarkBits = 24;
 constexpr std::size_t kMostDrawn = 256;  // frames whose times are kept
 constexpr std::size_t kMostBars = 540;   // of EBC
-
-std::string base64_of(const std::vector<std::uint8_t>& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t at = 0; at < bytes.size(); at += 3) {
-    const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
-    std::uint32_t three = 0;
-    for (std::size_t i = 0; i < 3; ++i) three = three << 8 | (i < count ? bytes[at + i] : 0);
-    for (std::size_t digit = 0; digit < 4; ++digit)
-      text += digit <= count ? kDigits[three >> (18 - 6 * digit) & 63] : '=';
-  }
-  return text;
-}
 
 // Bits, the lowest of a byte first, block after block in rows.
 std::string bits_of(const compositor::BlockFlags& flags) {
@@ -33,7 +23,7 @@ std::string bits_of(const compositor::BlockFlags& flags) {
       for (std::size_t bit = std::size_t{row} * flags.columns() + first; first < last; ++first, ++bit)
         bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] | 1 << bit % 8);
     });
-  return base64_of(bytes);
+  return document::base64(std::as_bytes(std::span(bytes)));
 }
 
 // In the order in which a node takes them; `map` and `fill` put edge boxes where they belong.

@@ -10,13 +10,18 @@ paint); kB a picture; processor milliseconds that each program takes for a pictu
 
 "slow": one view over a link of 5 Mbit/s that takes 50 ms each way. Nothing may queue:
 the last second's latency is about the first's, and moves have no picture of their own.
-Then the mouse rests, and the exact picture must come."""
+Then the mouse rests, and the exact picture must come.
+
+"man" is a film with the library's man alone. With --figure FILE there are also cases
+"figure", a film with the figure of this file (GLB, FBX, ...) in his place, as tall as
+he is; with --rounds the cases take turns."""
 import argparse
 import os
 import pathlib
 import queue
 import shutil
 import statistics
+import subprocess
 import sys
 import tempfile
 import threading
@@ -32,7 +37,10 @@ MOVES = 60       # of the mouse, a second
 REACH = 60       # pixels to each side
 CASES = ["demo drag one", "demo drag four", "demo orbit one", "demo orbit four",
          "s2 drag one", "s2 drag four", "s2 orbit one", "s2 orbit four",
-         "demo drag slow", "demo orbit slow"]
+         "demo drag slow", "demo orbit slow", "man drag one", "man orbit one"]
+FIGURE_CASES = ["figure drag one", "figure orbit one"]
+HEIGHT = "5.1"   # of the library's man
+DRAGGED = {"s2": " z ", "demo": " y ", "man": "forearm", "figure": "ForeArm"}  # is in the text of what is dragged
 TARGETS = {("demo", "drag"): (50, 30), ("s2", "drag"): (100, 30), ("demo", "orbit"): (None, 24),
            ("s2", "orbit"): (None, 12)}
 PROGRAMS = {"nodes": "/mars-threads ", "studio": "/mars studio", "page": "--type=renderer",
@@ -47,6 +55,9 @@ def arguments():
     parser = argparse.ArgumentParser(prog="mars bench studio", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", metavar="CASE", help=f"words that cases have; all: {', '.join(CASES)}")
+    parser.add_argument("--figure", type=pathlib.Path, metavar="FILE",
+                        help="a figure with Mixamo's names, for the cases " + ", ".join(FIGURE_CASES))
+    parser.add_argument("--rounds", type=int, default=1, metavar="N", help="of all cases; default: %(default)s")
     parser.add_argument("--build", required=True, type=pathlib.Path, help=argparse.SUPPRESS)
     parser.add_argument("--seconds", type=float, default=SECONDS, help="of a case; default: %(default)s")
     return parser.parse_args()
@@ -123,14 +134,24 @@ def percentile(values, share):
     return values[min(len(values) - 1, int(share * len(values)))] if values else float("nan")
 
 
-def copied(film, folder):
-    shutil.copytree(SOURCES / "examples", folder, dirs_exist_ok=True)
-    return pathlib.Path(folder) / f"{film}.json"
+def film_in(folder, name, mars, figure):
+    folder = pathlib.Path(folder)
+    if name not in ("man", "figure"):
+        shutil.copytree(SOURCES / "examples", folder, dirs_exist_ok=True)
+        return folder / f"{name}.json"
+    model, film = name, folder / "film.json"
+    if name == "figure":
+        model = "figure.json"
+        subprocess.run([mars, "import", figure.resolve(), "-o", folder / model, "--height", HEIGHT], check=True, stdout=subprocess.PIPE)
+    for words in (["new"], ["add", "someone", "--model", model]):
+        subprocess.run([mars, "film", film, *words], check=True, stdout=subprocess.PIPE, cwd=folder)
+    return film
 
 
-def measure(build, case, seconds):
+def measure(build, case, seconds, figure):
     film, how, views = case.split()
-    with tempfile.TemporaryDirectory() as folder, Studio(build / "bin", copied(film, folder)) as studio, \
+    with tempfile.TemporaryDirectory() as folder, \
+            Studio(build / "bin", film_in(folder, film, build / "bin" / "mars", figure)) as studio, \
             Browser(script=(HERE / "probe.js").read_text()) as browser:
         browser.open(SlowLink(studio.link).link if views == "slow" else studio.link)
         browser.until("pictures", "document.querySelectorAll('.view .waiting[hidden]').length === 4", 120)
@@ -139,7 +160,7 @@ def measure(build, case, seconds):
             browser.run("document.querySelectorAll('.view .maximise')[3].click()")
         time.sleep(1.5)
         view = browser.run("return document.querySelector('[data-key=view-3]')")
-        at = browser.find(view, " z " if film == "s2" else " y ", 0.2 if views == "slow" else 0.03)
+        at = browser.find(view, DRAGGED[film], 0.2 if views == "slow" else 0.03)
         browser.move(*at)
         browser.press(*at, "left" if how == "drag" else "middle")
         move_for(browser, at, 1)  # the interval has begun
@@ -199,20 +220,21 @@ def report(case, lasted, moves, latencies, pictures, spent, complaints):
         "enc": max(each["encoding"] for each in ours),
     }
     row |= {f"cpu {kind}": value / len(pictures) for kind, value in spent.items()}
-    latest, fewest = TARGETS[tuple(case.split()[:2])]
+    latest, fewest = TARGETS.get(tuple(case.split()[:2]), (None, None))
     wanted = f"p95 {latest}, " if latest else ""
-    aim = f" (wanted: {wanted}pict/s {fewest})" if not case.endswith("slow") else ""
+    aim = f" (wanted: {wanted}pict/s {fewest})" if fewest and not case.endswith("slow") else ""
     print(f"{case}{aim}\n   " + "  ".join(f"{k} {v:.1f}" for k, v in row.items()), *complaints, flush=True)
 
 
 def main():
     wanted = arguments()
-    cases = [case for case in CASES if all(word in case.split() for word in wanted.cases)]
+    known = CASES + (FIGURE_CASES if wanted.figure else [])
+    cases = [case for case in known if all(word in case.split() for word in wanted.cases)]
     if not cases:
-        sys.exit(f"mars bench studio: no case has all of the words {' '.join(wanted.cases)}; all: {', '.join(CASES)}")
+        sys.exit(f"mars bench studio: no case has all of the words {' '.join(wanted.cases)}; all: {', '.join(known)}")
     print(f"{os.cpu_count()} processors, load {os.getloadavg()[0]:.1f}")
-    for case in cases:
-        measure(wanted.build.resolve(), case, wanted.seconds)
+    for case in cases * wanted.rounds:
+        measure(wanted.build.resolve(), case, wanted.seconds, wanted.figure)
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ studio::Parts make_parts(const std::filesystem::path&, boost::asio::io_context&)
           [](studio::Rendering::Listener) { return std::make_unique<test::FakeRendering>(); },
           [](const studio::Project&, studio::Importing::Listener listener) {
             return std::make_unique<test::FakeImporting>(std::move(listener));
-          }};
+          },
+          [](studio::Thumbnails::Listener) { return std::make_unique<test::FakeThumbnails>(); }};
 }
 
 }  // namespace

@@ -180,6 +180,16 @@ class FakeImporting final : public studio::Importing {
   Listener listener_;
 };
 
+// Notes what it hears, and when it may work.
+class FakeThumbnails final : public studio::Thumbnails {
+ public:
+  void take(PageNumber, const Json& message) override { heard.push_back(message.at("do")); }
+  void page_closed(PageNumber) override { heard.push_back("closed"); }
+  void look(bool at_rest) override { heard.push_back(at_rest ? "at rest" : "moved"); }
+
+  std::vector<std::string> heard;
+};
+
 class FakeRendering final : public studio::Rendering {
  public:
   void take(PageNumber, const Json& message) override { heard.push_back(message.at("do")); }

@@ -53,7 +53,13 @@ class StudioTest : public testing::Test {
       importing_ = importing.get();
       return importing;
     };
-    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering, make_importing}, pages_);
+    const auto make_thumbnails = [this](Thumbnails::Listener) {
+      auto thumbnails = std::make_unique<test::FakeThumbnails>();
+      thumbnails_ = thumbnails.get();
+      return thumbnails;
+    };
+    studio_.emplace(
+        Parts{std::move(project), make_link, make_stage, make_rendering, make_importing, make_thumbnails}, pages_);
   }
 
   void say(PageNumber page, const char* message) { studio_->handle_message(page, Json::parse(message)); }
@@ -63,6 +69,7 @@ class StudioTest : public testing::Test {
   test::FakeStage* stage_ = nullptr;
   test::FakeRendering* rendering_ = nullptr;
   test::FakeImporting* importing_ = nullptr;
+  test::FakeThumbnails* thumbnails_ = nullptr;
   RendererLink::Listener link_;
   std::optional<Studio> studio_;
 };
@@ -114,6 +121,25 @@ TEST_F(StudioTest, AnImportIsAStepOfItsPage) {
   EXPECT_EQ(pages_.said(), "2 refused");
   studio_->page_closed(2);
   EXPECT_EQ(importing_->heard, (std::vector<std::string>{"import", "import", "closed"}));
+}
+
+TEST_F(StudioTest, ThumbnailsWaitForHands) {
+  say(2, R"({"do": "models"})");
+  studio_->look_at_files();
+  say(1, R"({"do": "orbit", "view": 0, "edit": 1})");
+  studio_->look_at_files();
+  say(1, R"({"do": "painted", "view": 0, "picture": 1})");
+  say(2, R"({"do": "thumbnail", "model": "man"})");
+  studio_->look_at_files();
+  say(1, R"({"do": "preview", "step": {"set": "a"}})");
+  studio_->look_at_files();
+  studio_->look_at_files();  // the gesture goes on
+  say(1, R"({"do": "cancel"})");
+  studio_->look_at_files();
+  studio_->look_at_files();
+  studio_->page_closed(2);
+  EXPECT_EQ(thumbnails_->heard, (std::vector<std::string>{"models", "at rest", "moved", "thumbnail", "at rest", "moved",
+                                                          "moved", "moved", "at rest", "closed"}));
 }
 
 TEST_F(StudioTest, KeysAndCurvesAreToldToWhoAsked) {

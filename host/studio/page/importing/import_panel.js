@@ -11,8 +11,8 @@ export class ImportPanel {
   #timer = 0;
   #since = 0;
 
-  constructor(place, {stop}) {
-    this.place = place;
+  constructor(place, {models, stop, choose, without}) {
+    Object.assign(this, {place, models, choose, without});
     this.stop = element("button", {"data-key": "import.stop", onclick: stop}, "Stop");
     this.bar = element("progress", {max: 1, "aria-label": "How much is sent"});
     this.text = element("p", {class: "hint", role: "status"});
@@ -34,9 +34,23 @@ export class ImportPanel {
     this.#timer = setInterval(show, kTick);
   }
 
+  // For files that others name: [{name, of, needed}]. What is not needed can be left out.
+  waiting(missing, seconds) {
+    const end = performance.now() + seconds * 1000, canGoOn = missing.every(({needed}) => !needed);
+    const left = element("span", {class: "hint", role: "timer"});
+    const show = () => { left.textContent = `Waits ${clock(Math.max(0, end - performance.now()))}`; };
+    const buttons = [element("button", {class: "primary", "data-key": "import.rest", onclick: this.choose}, "Choose files"),
+                     canGoOn && element("button", {"data-key": "import.without", onclick: this.without}, "Import without"), this.stop];
+    this.#show("waiting", "import", "Files are missing", element("ul", {}, missing.map(({name, of}) => element("li", {}, element("strong", {}, shown(name)), ` of ${of}`))),
+               element("p", {class: "remedy", role: "status"}, canGoOn ? "Drop them on the page, too, or import without them." : "Drop them on the page, too."),
+               element("div", {class: "way"}, left, element("div", {class: "several"}, buttons.filter(Boolean))));
+    show();
+    this.#timer = setInterval(show, kTick);
+  }
+
   done({files, actors, reports}) {
     const open = actors.length === 0 && element("p", {class: "hint"}, `Open it with mars studio ${files.join(" ")}`);
-    this.#show("done", "check", "Imported", reports.map(reportParts), open);
+    this.#show("done", "check", "Imported", reports.map((report, i) => this.#made(files[i], report)), open);
   }
 
   // The remedy stands in parentheses at the end.
@@ -55,6 +69,11 @@ export class ImportPanel {
   // That one import is under way already.
   remind() { this.place.animate([{transform: "none"}, {transform: "translateY(-6px)"}, {transform: "none"}], 250); }
 
+  #made(file, report) {
+    const [name, what, rows] = reportParts(report);
+    return element("section", {class: "made"}, element("div", {class: "model"}, this.models.picture(file), element("div", {}, name, what)), rows);
+  }
+
   #going(name) {
     clearInterval(this.#timer);
     if (this.place.dataset.state === "going" && this.place.dataset.name === name) return;
@@ -66,12 +85,14 @@ export class ImportPanel {
     clearInterval(this.#timer);
     const close = element("button", {class: "quiet icon", "aria-label": "Close", title: "Close", "data-key": "import.close", onclick: () => this.close()}, icon("close"));
     this.place.dataset.state = state;
-    this.place.replaceChildren(element("header", {}, icon(glyph), element("h2", {}, title), state !== "going" && close),
+    this.place.replaceChildren(element("header", {}, icon(glyph), element("h2", {}, title), state !== "going" && state !== "waiting" && close),
                                ...[children].flat(Infinity).filter(Boolean));
     this.place.hidden = false;
   }
 }
 
+const clock = (ms) => `${Math.floor(ms / 60000)}:${String(Math.floor(ms / 1000) % 60).padStart(2, "0")}`;
+const shown = (name) => name.endsWith("*.asf") ? "The skeleton (.asf)" : name;
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
 // Of lines like "rock.json: model of one joint 'rock'" and "  read       8 vertices, 12 faces": see mars import.

@@ -6,18 +6,19 @@ import {icon} from "../icons.js";
 import {chosenFiles, droppedFiles} from "./dropped.js";
 import {ImportPanel} from "./import_panel.js";
 
+const listed = (files) => files.map(({file, name}) => ({name, size: file.size}));
 const hasFiles = ({dataTransfer}) => dataTransfer?.types.includes("Files") ?? false;
 
 export class Importer {
-  #going = null;    // {files, name, number}: the import under way
+  #going = null;    // {files, name, number, sent, state}: the import under way; how many files are sent; what the studio does
   #request = null;  // that sends a file
 
   options = {height: "", front: ""};  // of `mars import`; "": as is usual
 
   // `came(actors)` hears which actors the film has now.
-  constructor(place, {state, connection}, came) {
+  constructor(place, {state, connection, models}, came) {
     Object.assign(this, {state, connection, came});
-    this.panel = new ImportPanel(place, {stop: () => this.#stop()});
+    this.panel = new ImportPanel(place, {models, stop: () => this.#stop(), choose: () => this.choose(), without: () => this.#send({do: "import_more", files: []})});
     this.input = element("input", {type: "file", multiple: true, hidden: true, "aria-label": "Files to import", "data-key": "import.files",
                                    onchange: () => this.#chosen()});
     this.target = element("div", {class: "drop-target", hidden: true}, icon("import"), element("strong", {}, "Drop to import"),
@@ -31,17 +32,32 @@ export class Importer {
   choose() { this.input.click(); }
 
   async take(files) {
+    if (this.#going?.state === "waiting") return this.#takeMore(files);
     if (this.#going) return this.panel.remind();
     if (files.length === 0) return;
-    this.#going = {files, name: files.length === 1 ? files[0].name : `${files.length} files`, number: null};
-    const list = files.map(({file, name}) => ({name, size: file.size}));
-    if (!this.connection.send({do: "import", files: list, options: this.options})) return this.#fail("The studio does not answer");
-    this.panel.sending(this.#going.name, 0);
+    this.#going = {files, name: files.length === 1 ? files[0].name : `${files.length} files`, number: null, sent: 0, state: ""};
+    if (this.#send({do: "import", files: listed(files), options: this.options})) this.panel.sending(this.#going.name, 0);
+  }
+
+  // What the import waits for may come with files that are there already.
+  #takeMore(files) {
+    const there = new Set(this.#going.files.map(({name}) => name)), more = files.filter(({name}) => !there.has(name));
+    if (more.length === 0) return this.panel.remind();
+    this.#going.state = "";
+    this.#going.files.push(...more);
+    this.#send({do: "import_more", files: listed(more)});
+  }
+
+  #send(message) {
+    const left = this.connection.send(message);
+    if (!left) this.#fail("The studio does not answer");
+    return left;
   }
 
   // Whether the refused message was of an import.
   refused({do: what, text}) {
-    if (what !== "import") return false;
+    if (what !== "import" && what !== "import_more") return false;
+    if (what === "import_more") this.connection.send({do: "stop_import"});
     this.#fail(text);
     return true;
   }
@@ -69,13 +85,15 @@ export class Importer {
     });
   }
 
-  #hear({state, number, name, text, ...made}) {
+  #hear({state, number, name, text, missing, seconds, ...made}) {
     if (!this.#going) return;
+    if (state === "receiving") this.#going.number = number;
+    else if (number !== this.#going.number) return;  // of an import that this page has stopped
+    this.#going.state = state;
     if (state === "receiving") {
-      this.#going.number = number;
-      this.#send();
-    } else if (number !== this.#going.number) {
-      return;  // of an import that this page has stopped
+      this.#sendFiles();
+    } else if (state === "waiting") {
+      this.panel.waiting(missing, seconds);
     } else if (state === "reading") {
       this.panel.reading(name);
     } else {
@@ -92,12 +110,14 @@ export class Importer {
   }
 
   // One file after the other.
-  async #send() {
-    const {files, name} = this.#going, going = this.#going;
+  async #sendFiles() {
+    const going = this.#going, {name, sent: first} = going, files = going.files.slice(first);
     const whole = Math.max(1, files.reduce((sum, {file}) => sum + file.size, 0));
+    going.sent = going.files.length;
     let sent = 0;
     for (const [at, {file}] of files.entries()) {
-      const problem = await this.#sendFile(at, file, (bytes) => this.panel.sending(name, (sent + bytes) / whole));
+      const progress = (bytes) => { if (going.state === "receiving") this.panel.sending(name, (sent + bytes) / whole); };  // it may come late
+      const problem = await this.#sendFile(first + at, file, progress);
       if (this.#going !== going) return;
       if (problem !== null) return this.#stop(problem);
       sent += file.size;

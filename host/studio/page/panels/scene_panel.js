@@ -11,20 +11,22 @@ import {Controls} from "./scene/controls.js";
 import {filmPart, materialsPart} from "./scene/film.js";
 import {importPart} from "./scene/imports.js";
 import {lightsPart} from "./scene/lights.js";
+import {modelCards} from "./scene/model_cards.js";
 
 export class ScenePanel {
   #built = "";
 
-  constructor(place, {state, edits, importer}) {
-    Object.assign(this, {place, state, edits});
-    this.controls = new Controls({state, edits, importer});
+  constructor(place, {state, edits, importer, models}) {
+    Object.assign(this, {place, state, edits, models});
+    this.controls = new Controls({state, edits, importer, models});
     state.on("project selected", () => this.#update());
     state.on("poses", () => this.controls.set());
+    models.whenListed(() => this.state.project && this.#update());
   }
 
   #update() {
     const film = this.state.isFilm();
-    const built = JSON.stringify(film ? this.#shape() : [this.state.project?.bodies]);
+    const built = JSON.stringify(film ? this.#shape() : [this.state.project?.bodies, this.models.list.length]);
     if (built !== this.#built) {
       this.#built = built;
       this.controls.clear();
@@ -36,9 +38,9 @@ export class ScenePanel {
   #bodies() {
     const bodies = this.state.project?.bodies ?? [];
     if (bodies.length === 0) return [element("p", {class: "nothing"}, "This model has no other bodies.")];
-    const button = ({name, what}) => element("button", {title: what, onclick: (event) => this.#begin(name, event)}, name);
+    const cards = modelCards(this.models, {list: bodies, label: "Bodies", choose: (name, event) => this.#begin(name, event)});
     return [part("Bodies", element("p", {class: "hint"}, "A figure of the library, in place of this model."),
-                 element("div", {class: "actions"}, bodies.map(button)))];
+                 cards.root)];
   }
 
   // What somebody has made goes only where he agrees.
@@ -52,7 +54,7 @@ export class ScenePanel {
   #shape() {
     const {project, selected} = this.state;
     return [selected.actor, selected.thing, Boolean(project.camera), project.settings.color, project.actors.map(({name, place}) => [name, Boolean(place)]),
-            project.library, (project.lights ?? []).map(({thing, kind}) => [thing, kind]),
+            this.models.list.map(({name}) => name), (project.lights ?? []).map(({thing, kind}) => [thing, kind]),
             (project.materials ?? []).map(({name}) => name)];
   }
 

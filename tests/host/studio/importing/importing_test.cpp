@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/studio/importing/upload_folder.h"
 #include "tests/host/studio/fakes.h"
 #include "tests/sanitizers/sanitized.h"
 
@@ -45,10 +47,16 @@ case "$(cat "$2")" in
   bad*) echo "mars: $2:3: is no number (export it again)" >&2; exit 1;;
   long*) echo $$ > "$(dirname "$0")/process"; exec sleep 100;;
 esac
+(cd "$(dirname "$2")" && find . -type f | sort) >> "$(dirname "$0")/came"
 shift; echo "$@" >> "$(dirname "$0")/words"
 printf '{"made of": "%s"}' "$(cat "$1")" > "$3"
 echo "$3: model of one joint"; echo "  read       all of $1"
 )sh";
+
+constexpr std::chrono::milliseconds kSoon{30};
+constexpr const char* kFigure = R"({"buffers": [{"uri": "a%20figure.bin"}, {"uri": "data:;base64,AAAA"}],
+  "images": [{"uri": "bumps.png"}, {"uri": "tex/skin.png"}], "textures": [{"source": 1}],
+  "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}}]})";
 
 class ImportingTest : public testing::Test {
  protected:
@@ -56,7 +64,15 @@ class ImportingTest : public testing::Test {
     fs::create_directories(folder_ / "films");
     std::ofstream(folder_ / "mars") << kMars;
     fs::permissions(folder_ / "mars", fs::perms::owner_all);
-    importing_ = make_importing(context_, {folder_ / "films/play.json", folder_ / "mars"}, project_,
+    make({folder_ / "films/play.json", folder_ / "mars"});
+  }
+  ~ImportingTest() override {
+    importing_.reset();
+    fs::remove_all(folder_);
+  }
+
+  void make(const ImportingSettings& settings) {
+    importing_ = make_importing(context_, settings, project_,
                                 {[this](PageNumber page, const Json& message) {
                                    EXPECT_EQ(page, 1u);
                                    messages_.push_back(message);
@@ -67,19 +83,23 @@ class ImportingTest : public testing::Test {
                                    before_ = before;
                                  }});
   }
-  ~ImportingTest() override {
+  void make_impatient() {
     importing_.reset();
-    fs::remove_all(folder_);
+    make({folder_ / "films/play.json", folder_ / "mars", kSoon, kSoon});
   }
 
   struct Content {
     std::string name, text;
   };
 
-  void begin(const std::vector<Content>& files) {
+  static Json list_of(const std::vector<Content>& files) {
     Json list = Json::array();
     for (const Content& file : files) list.push_back({{"name", file.name}, {"size", file.text.size()}});
-    importing_->take(1, {{"do", "import"}, {"files", list}});
+    return list;
+  }
+
+  void begin(const std::vector<Content>& files) {
+    importing_->take(1, {{"do", "import"}, {"files", list_of(files)}});
     EXPECT_EQ(last()["state"], "receiving");
   }
 
@@ -89,8 +109,19 @@ class ImportingTest : public testing::Test {
 
   void send(const std::vector<Content>& files) {
     begin(files);
+    send_announced(files, 0);
+  }
+
+  // To the import that waits for them, after `first` others.
+  void send_more(const std::vector<Content>& files, std::size_t first) {
+    importing_->take(1, {{"do", "import_more"}, {"files", list_of(files)}});
+    ASSERT_EQ(last()["state"], "receiving");
+    send_announced(files, first);
+  }
+
+  void send_announced(const std::vector<Content>& files, std::size_t first) {
     for (std::size_t i = 0; i < files.size(); ++i) {
-      const auto up = upload(static_cast<std::uint32_t>(i), files[i].text.size());
+      const auto up = upload(static_cast<std::uint32_t>(first + i), files[i].text.size());
       const std::string_view text = files[i].text;
       up->take(text.substr(0, text.size() / 2));
       up->take(text.substr(text.size() / 2));
@@ -101,7 +132,10 @@ class ImportingTest : public testing::Test {
   template <typename Holds>
   bool run_until(Holds holds) {
     const auto last = std::chrono::steady_clock::now() + std::chrono::seconds(20) * sanitizers::kSlowness;
-    while (!holds() && std::chrono::steady_clock::now() < last) context_.run_one_for(std::chrono::milliseconds(20));
+    while (!holds() && std::chrono::steady_clock::now() < last) {
+      context_.restart();
+      context_.run_one_for(std::chrono::milliseconds(20));
+    }
     return holds();
   }
   bool ends(const char* state) {
@@ -214,6 +248,79 @@ TEST_F(ImportingTest, TheReaderEndsWithItsPage) {
   EXPECT_NE(kill(reader, 0), 0);
   EXPECT_EQ(left(), Names{});
   EXPECT_EQ(last()["state"], "stopped");
+}
+
+TEST_F(ImportingTest, ItWaitsForFilesThatOthersName) {
+  send({{"figure.gltf", kFigure}});
+  ASSERT_EQ(last()["state"], "waiting");
+  EXPECT_EQ(last()["missing"].dump(), R"([{"name":"a figure.bin","of":"figure.gltf","needed":true},)"
+                                      R"({"name":"tex/skin.png","of":"figure.gltf","needed":false}])");
+  EXPECT_EQ(last()["seconds"], 120);
+  EXPECT_THROW(importing_->take(2, {{"do", "import_more"}, {"files", Json::array()}}), Failure);
+  EXPECT_THROW(importing_->take(1, {{"do", "import_more"}, {"files", list_of({{"figure.gltf", ""}})}}), Failure);
+  send_more({{"a figure.bin", "numbers"}}, 1);
+  ASSERT_EQ(last()["state"], "waiting");
+  EXPECT_EQ(last()["missing"].size(), 1u);
+  send_more({{"skin.png", "colours"}}, 2);  // which belongs into a folder
+  ASSERT_TRUE(ends("done")) << last();
+  EXPECT_EQ(text_of("came"), "./a figure.bin\n./figure.gltf\n./skin.png\n./tex/skin.png\n");
+  EXPECT_EQ(left(), Names{"figure.json"});
+}
+
+TEST_F(ImportingTest, AMotionWaitsForItsSkeleton) {
+  send({{"walks/02_01.amc", "steps"}});
+  ASSERT_EQ(last()["state"], "waiting");
+  EXPECT_EQ(last()["missing"].dump(), R"([{"name":"walks/*.asf","of":"walks/02_01.amc","needed":true}])");
+  send_more({{"02.asf", "bones"}}, 1);
+  ASSERT_TRUE(ends("done")) << last();
+  EXPECT_EQ(text_of("came"), "./02.asf\n./02_01.amc\n");
+  EXPECT_EQ(last()["actors"], Json{"02_01"});
+}
+
+TEST_F(ImportingTest, WhatIsNotNeededCanBeLeftOut) {
+  send({{"rock.obj", "mtllib rock.mtl\nv 0 0 0\n"}});
+  ASSERT_EQ(last()["state"], "waiting");
+  importing_->take(1, {{"do", "import_more"}, {"files", Json::array()}});
+  EXPECT_TRUE(ends("done")) << last();
+  make_impatient();
+  send({{"stone.obj", "mtllib rock.mtl\nv 0 0 0\n"}});
+  ASSERT_EQ(last()["state"], "waiting");
+  EXPECT_TRUE(ends("done")) << last();
+}
+
+TEST_F(ImportingTest, ItDoesNotWaitForEver) {
+  make_impatient();
+  send({{"figure.gltf", kFigure}});
+  ASSERT_TRUE(ends("failed"));
+  EXPECT_EQ(last()["text"], "a figure.bin did not come within 1 second: figure.gltf cannot be read without (import them together)");
+  begin({{"ball.ply", "round"}, {"rock.obj", "stone"}});
+  {
+    const auto up = upload(0, 5);
+    up->take("round");
+    up->end();
+  }
+  ASSERT_TRUE(ends("failed"));
+  EXPECT_EQ(last()["text"], "rock.obj did not come: the page sent nothing for 1 second (import the files again, together)");
+  EXPECT_EQ(left(), Names{});
+}
+
+// As SIGKILL leaves it.
+TEST_F(ImportingTest, FoldersOfKilledStudiosGo) {
+  const pid_t killed = fork();
+  if (killed == 0) {
+    const UploadFolder folder(folder_ / "films");
+    std::ofstream(folder.path() / "there") << "figure";
+    raise(SIGKILL);
+  }
+  waitpid(killed, nullptr, 0);
+  ASSERT_EQ(left().size(), 1u);
+  begin({{"rock.obj", "stone"}});  // another studio's
+  fs::create_directory(folder_ / "films/.mars-import-mine");
+  boost::asio::io_context context;
+  const auto next = make_importing(context, {folder_ / "films/play.json", folder_ / "mars"}, project_, {});
+  ASSERT_EQ(left().size(), 2u);
+  upload(0, 5)->take("stone");  // it goes on there
+  EXPECT_EQ(left(), Names{".mars-import-mine"});
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ class MockStudio:
         self.draw = draw or (lambda asked: plain(asked["width"], asked["height"], (40 + 30 * asked["view"], 60, 80)))
         self.there = lambda grab: {"joint": None, "handle": None}  # what a grab finds
         self.channels = []  # things with keys, as the protocol has them
+        self.models = []    # that a film can have
         self.heard = []
         self.views = {}
         self.numbers = {}  # view -> its last picture
@@ -149,6 +150,8 @@ class MockStudio:
                 await self._picture(message["view"], self.due.pop(message["view"]))
         elif does == "grab":
             await self._tell({"is": "grabbed", "view": message["view"], **self.there(message)})
+        elif does == "models":
+            await self._tell({"is": "models", "models": self.models})
         elif does == "channels":
             await self._tell({"is": "channels", "things": self.channels})
         elif does == "curves" and "parts" in message:

@@ -1,13 +1,16 @@
 """The studio's page in a headless Chromium, before a studio that is played by mock_studio.py. Takes Debian's chromium,
 chromium-driver, python3-selenium and python3-websockets."""
 
+import base64
 import contextlib
 import functools
 import pathlib
 import re
+import struct
 import sys
 import time
 import unittest
+import zlib
 
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
@@ -54,6 +57,14 @@ def numbers(words, option):
     values = words[words.index(option) + 1:]
     end = next((at for at, word in enumerate(values) if word.startswith("--")), len(values))
     return [float(word) for word in values[:end]]
+
+
+def figure_picture():
+    """A PNG of 32 x 32: a bar on the ground of previews."""
+    row = lambda y: b"\0" + b"".join(bytes((200, 40, 40) if 13 <= x < 19 and 6 <= y < 28 else (31, 36, 51)) for x in range(32))  # noqa: E731
+    chunk = lambda kind, data: struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))  # noqa: E731
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 32, 32, 8, 2, 0, 0, 0)) +
+            chunk(b"IDAT", zlib.compress(b"".join(map(row, range(32))))) + chunk(b"IEND", b""))
 
 
 class Page(unittest.TestCase):
@@ -639,6 +650,40 @@ class Films(Page):
         self.studio.tell({"is": "project", **self.studio.project, "actors": [*self.studio.project["actors"], ball]})
         self.studio.wait_for("select", actor="ball", joint=None)
         self.assertEqual(self.find('[data-key="actor.name"]').get_attribute("value"), "ball")
+
+    def test_models_have_pictures_once_somebody_sees_them(self):
+        names = ["man", "dog", "soldier.json", "cut.json", *(f"{number}.json" for number in range(20))]
+        models = [{"name": name, "what": f"a {name}" if "." not in name else "", "kind": "file", "version": "1"} for name in names]
+        self.studio.tell({"is": "models", "models": models})
+        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        card = lambda name: self.find(f'[data-key="model.{name}"]')  # noqa: E731
+        self.js("arguments[0].scrollIntoView()", card("man"))
+        for name in names[:4]:
+            self.studio.wait_for("thumbnail", model=name)
+        self.assertNotIn("19.json", [each.get("model") for each in self.studio.heard])  # it is out of sight
+        state = lambda name: card(name).find_element(By.CLASS_NAME, "thumbnail").get_attribute("data-state")  # noqa: E731
+        self.assertEqual([state("man"), card("man").accessible_name], ["awaited", "man"])
+        self.studio.tell({"is": "thumbnail", "model": "man", "version": "1", "png": base64.b64encode(figure_picture()).decode()})
+        self.studio.tell({"is": "thumbnail", "model": "cut.json", "version": "1", "problem": "cut.json:3: is no list (close it)"})
+        self.until(lambda: [state(name) for name in names[:4]], ["there", "awaited", "awaited", "problem"])
+        self.assertEqual(card("man").accessible_name, "man")
+        self.assertEqual(self.js("""
+            const canvas = arguments[0].querySelector("canvas"), {width, height} = canvas;
+            const at = (x, y) => [...canvas.getContext("2d", {willReadFrequently: true}).getImageData(x * width, y * height, 1, 1).data][0] > 100;
+            return [at(0.02, 0.5), at(0.5, 0.5), at(0.5, 0.12), at(0.5, 0.02)];""", card("man")), [False, True, True, False])  # it fills the place
+        self.assertIn("cut.json:3: is no list", card("cut.json").text)
+        card("man").click()
+        self.press(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.assertEqual(self.js("return document.activeElement.dataset.key"), "model.soldier.json")
+        self.press(Keys.ENTER)
+        self.assertEqual(self.find('[data-key="cast.model"]').get_attribute("value"), "soldier.json")
+        self.assertEqual([card(name).get_attribute("aria-pressed") for name in names[:3]], ["false", "false", "true"])
+        self.find('[data-key="cast.add"]').click()
+        self.commit("film add soldier --model soldier.json --beside 24")
+        self.studio.forget()
+        self.studio.tell({"is": "models", "models": [{**each, "version": "2"} if each["name"] == "cut.json" else each for each in models]})
+        self.studio.wait_for("thumbnail", model="cut.json")
+        self.assertEqual([each["model"] for each in self.studio.heard if each["do"] == "thumbnail"], ["cut.json"])
 
     def test_the_camera_is_cut_at_the_frame(self):
         self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")

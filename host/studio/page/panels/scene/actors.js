@@ -2,6 +2,7 @@
 
 import {element} from "../../dom.js";
 import {line, part, textField} from "../../fields.js";
+import {modelCards} from "./model_cards.js";
 
 export function actorPart(controls) {
   const {actor} = controls.state.selected;
@@ -25,11 +26,15 @@ function carrier(controls, actor) {
 }
 
 export function castPart(controls) {
-  const library = (controls.project.library ?? []).map(({name, what}) => element("option", {value: name}, what));
-  const list = element("datalist", {id: "library"}, library);
-  const text = (name, key, hint) => element("input", {type: "text", "aria-label": name, "data-key": key, placeholder: hint,
-                                                      list: key === "cast.model" ? "library" : null, autocomplete: "off"});
+  const text = (name, key, hint) => element("input", {type: "text", "aria-label": name, "data-key": key, placeholder: hint, autocomplete: "off"});
   const model = text("Model of the new actor", "cast.model", "man, ball, FILE.json");
+  const choose = (chosen) => {
+    model.value = chosen;
+    cards.set(chosen);
+  };
+  const cards = modelCards(controls.models, {list: controls.models.list, label: "Models", choose, chosen: null});
+  cards.root.addEventListener("dblclick", (event) => add(event));
+  model.addEventListener("input", () => cards.set(model.value.trim()));
   const name = text("Name of the new actor", "cast.name", "as its model");
   const add = (event) => {
     const of = model.value.trim();
@@ -37,7 +42,7 @@ export function castPart(controls) {
     const called = name.value.trim() || freeName(controls.project.actors, of.split("/").at(-1).replace(/\..*$/, ""));
     controls.edits.addActor(called, of, event);
   };
-  return part("Add an actor", line("Model", model, list), line("Name", name),
+  return part("Add an actor", cards.root, line("Model", model), line("Name", name),
               element("div", {class: "actions"}, element("button", {"data-key": "cast.add", onclick: add}, "Add")));
 }
 

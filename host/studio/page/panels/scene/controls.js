@@ -15,7 +15,7 @@ const shownTarget = (target) => target?.replace("/", " \u203a ") ?? "Nobody";
 export class Controls {
   #fields = [];
 
-  constructor({state, edits, importer}) { Object.assign(this, {state, edits, importer}); }
+  constructor({state, edits, importer, models}) { Object.assign(this, {state, edits, importer, models}); }
 
   get project() { return this.state.project; }
 
