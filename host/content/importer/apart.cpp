@@ -1,5 +1,6 @@
 #include "host/content/importer/apart.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -39,8 +40,17 @@ Failure unpacked(const std::string& text, const std::string& where) {
   return {parts[0], parts[1].empty() ? where : parts[1], parts[2]};
 }
 
+// What libraries print before they abort says nothing to people. Sanitizers' reports are wanted.
+void silence_libraries() {
+#ifndef __SANITIZE_ADDRESS__
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
+#endif
+}
+
 // In the new process: its exit code.
 int answered(const std::function<std::vector<std::string>()>& work, const child::Descriptor& answer) {
+  silence_libraries();
   int code = 0;
   std::vector<std::string> parts;
   try {

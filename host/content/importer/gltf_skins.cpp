@@ -13,12 +13,21 @@ std::string name_of(const Tree& named) {
   return name.is_string() ? name.get<std::string>() : "";
 }
 
-// Assimp crashes where a skin has no matrices, and gives a mesh under two skins the bones of one.
+// glTF's number of the type float (3.6.2.2).
+constexpr std::size_t kFloatType = 5126;
+
+// Assimp crashes where a skin has no matrices, reads beyond the last where these are too few, and gives a mesh under
+// two skins the bones of one.
 void refuse_skin(const std::filesystem::path& path, const Tree& gltf, const Tree& node,
                  std::map<std::size_t, Tree>& skin_of_mesh) {
-  const Tree& matrices = at(item(at(gltf, "skins"), at(node, "skin")), "inverseBindMatrices");
-  if (item(at(gltf, "accessors"), matrices).is_null())
+  const Tree& skin = item(at(gltf, "skins"), at(node, "skin"));
+  const Tree& matrices = at(skin, "inverseBindMatrices");
+  const Tree& accessor = item(at(gltf, "accessors"), matrices);
+  if (accessor.is_null())
     throw Failure("has a skin without inverse bind matrices", path.string(), "export it with them, as Blender does");
+  if (at(accessor, "type") != "MAT4" || number(at(accessor, "componentType"), 0) != kFloatType ||
+      number(at(accessor, "count"), 0) < at(skin, "joints").size())
+    throw Failure("has a skin with fewer inverse bind matrices than joints", path.string(), "export it again");
   const Tree& mesh = at(node, "mesh");
   const auto [other, is_new] = skin_of_mesh.try_emplace(number(mesh, 0), matrices);
   if (!is_new && other->second != matrices)

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/reading/read_film.h"
+#include "host/content/document/document.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
@@ -19,6 +21,7 @@
 #include "host/content/importer/import_patches.h"
 #include "host/content/importer/joint_names.h"
 #include "host/content/importer/orientation.h"
+#include "host/content/modeler/read_model.h"
 
 namespace mars::importer {
 namespace {
@@ -50,6 +53,27 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
   return run_apart(read, limits_for(bytes), path.string(), kRemedy);
 }
 
+bool is_film(const ImportOptions& options, FileKind kind) {
+  return options.as ? *options.as == ImportAs::film : kind == FileKind::bvh || kind == FileKind::amc;
+}
+
+// Of strange files, films and models may be beyond what MARS takes. Large meshes stand in brief.
+void check_text(const document::LongText& text, const ImportOptions& options, FileKind kind) {
+  const std::string file = options.from.string();
+  try {
+    const document::Document document(document::brief_of(text), file);
+    if (is_film(options, kind))
+      animator::read_film(document.root(), options.to.parent_path());
+    else
+      modeler::read_model(document.root());
+  } catch (const Failure& failure) {
+    const std::size_t element = failure.where.find(": ", std::min(file.size(), failure.where.size()));
+    throw Failure(std::string("makes a ") + (is_film(options, kind) ? "film" : "model") + " that MARS refuses: " +
+                      (element == std::string::npos ? "" : failure.where.substr(element + 2) + " ") + failure.problem,
+                  file, "make it larger or smaller with --scale, or mend it in the program that made it");
+  }
+}
+
 // The report, images, the model or film, as read_answer() takes them apart.
 std::vector<std::string> run(const ImportOptions& options, FileKind kind, const Stance& stance) {
   const bool film = options.as == ImportAs::film;
@@ -57,6 +81,7 @@ std::vector<std::string> run(const ImportOptions& options, FileKind kind, const 
                           : is_patches(kind) ? import_patches(options, kind, stance)
                           : film             ? import_gltf_film(options, kind, stance)
                                              : import_mesh(options, kind, stance);
+  check_text(imported.text, options, kind);
   std::vector<std::string> parts{text_of(imported.report, options.to.string()) + '\0'};
   for (KeptImage& image : imported.images) {
     parts.push_back(image.file + '\0' + image.from.string() + '\0' + std::to_string(image.bytes.size()) + '\0');

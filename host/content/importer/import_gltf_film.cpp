@@ -100,9 +100,7 @@ class GltfFilm {
     FilmText film{clock_.frames, clock_.rate, options_.joint, model_text_of(model_), {}, std::move(actor)};
     add_camera(film);
     add_lights(film);
-    document::LongText text = film_text(std::move(film));
-    check_film_text(text, options_.to);
-    return {std::move(report_), std::move(text), std::move(model_.images)};
+    return {std::move(report_), film_text(std::move(film)), std::move(model_.images)};
   }
 
  private:

@@ -371,6 +371,7 @@ class SceneReader {
                                       {glm::dmat3(matrix), glm::dvec3(matrix[3])}));
       }
       weights_left_out_ += skin.weights_left_out;
+      boneless_ += skin.boneless;
       add(mesh, 0, to_model, &skin, bones);
     }
     ++skinned_meshes_;
@@ -496,6 +497,9 @@ class SceneReader {
     if (weights_left_out_ > 0)
       list.push_back(document::counted(weights_left_out_, "weight", "weights") +
                      " of vertices that follow more than 4 bones: the 4 heaviest count");
+    if (boneless_ > 0)
+      list.push_back("bones of " + document::counted(boneless_, "vertex", "vertices") +
+                     " without sound weights: the first bone of the skin moves these");
     append(list, unread_parts(scene_, materials_, options_.set_material, !options_.rest.empty()));
     append(list, materials_.means().not_read());
     append(list, file_.promised.not_read);
@@ -519,7 +523,7 @@ class SceneReader {
   FiguresLimbs limbs_;       // of nodes
   std::string looks_along_;  // the file's axis, if the figure was turned
   std::vector<NamedLimb> named_limbs_;
-  std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, weights_left_out_ = 0, uneven_joints_ = 0;
+  std::size_t nodes_as_joints_ = 0, skinned_meshes_ = 0, weights_left_out_ = 0, boneless_ = 0, uneven_joints_ = 0;
 };
 
 }  // namespace

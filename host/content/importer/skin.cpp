@@ -24,6 +24,7 @@ MeshSkin skin_of(const aiMesh& mesh, const std::vector<glm::dmat4>& joints) {
   for (std::vector<modeler::BoneWeight>& bones : followed) {
     if (bones.size() > modeler::kMostBonesOfVertex) skin.weights_left_out += bones.size() - modeler::kMostBonesOfVertex;
     const auto bones_of_vertex = modeler::bones_of_vertex(std::move(bones));
+    skin.boneless += !bones_of_vertex;
     skin.vertices.push_back(bones_of_vertex.value_or(modeler::VertexBones{{0}, {1}}));
   }
   skin.heaviest = static_cast<std::size_t>(std::ranges::max_element(weights) - weights.begin());

@@ -18,6 +18,7 @@ struct MeshSkin {
   std::vector<modeler::VertexBones> vertices;  // numbers in to_file
   std::size_t heaviest = 0;                    // the bone whose weights, of all vertices, are most
   std::size_t weights_left_out = 0;            // of vertices that follow more bones than a model's may
+  std::size_t boneless = 0;                    // vertices without any weight
 };
 
 // `joints` are the matrices of the bones' nodes, in the order of the bones. A vertex without any weight goes with the

@@ -1,5 +1,7 @@
 #include "host/content/importer/gltf/gltf_bounds.h"
 
+#include <algorithm>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -58,7 +60,46 @@ bool is_sparse_sound(const Tree& accessor, const Tree& views) {
          fits("values", element);
 }
 
+struct Attribute {
+  std::string_view name;  // without its set's number
+  std::string_view type, other_type;
+};
+
+// glTF 2.0, 3.7.2.1; of targets tangents have three numbers.
+constexpr Attribute kAttributes[] = {{"POSITION", "VEC3", "VEC3"}, {"NORMAL", "VEC3", "VEC3"},
+                                     {"TANGENT", "VEC4", "VEC3"},  {"TEXCOORD_", "VEC2", "VEC2"},
+                                     {"COLOR_", "VEC3", "VEC4"},   {"JOINTS_", "VEC4", "VEC4"},
+                                     {"WEIGHTS_", "VEC4", "VEC4"}};
+
+bool are_alike(const Tree& attributes, const Tree& accessors, std::size_t vertices) {
+  if (!attributes.is_object()) return true;
+  for (const auto& [name, index] : attributes.items()) {
+    const Tree& accessor = item(accessors, index);
+    const auto is_it = [&](const Attribute& each) { return name.starts_with(each.name); };
+    const auto known = std::ranges::find_if(kAttributes, is_it);
+    if (accessor.is_null() || known == std::end(kAttributes)) continue;
+    const Tree& type = at(accessor, "type");
+    if (number(at(accessor, "count"), 0) != vertices) return false;
+    if (type != known->type && type != known->other_type) return false;
+  }
+  return !attributes.contains("WEIGHTS_1") || attributes.contains("WEIGHTS_0");
+}
+
 }  // namespace
+
+void require_alike_attributes(const std::filesystem::path& path, const Tree& gltf) {
+  const Tree& accessors = at(gltf, "accessors");
+  for (const Tree& mesh : at(gltf, "meshes"))
+    for (const Tree& primitive : at(mesh, "primitives")) {
+      const Tree& attributes = at(primitive, "attributes");
+      const std::size_t vertices = number(at(item(accessors, at(attributes, "POSITION")), "count"), 0);
+      bool sound = are_alike(attributes, accessors, vertices);
+      for (const Tree& target : at(primitive, "targets")) sound = sound && are_alike(target, accessors, vertices);
+      if (!sound)
+        throw Failure("has a mesh whose places, normals, weights or the like do not fit each other", path.string(),
+                      "export it again");
+    }
+}
 
 void require_within_buffers(const std::filesystem::path& path, const Tree& gltf) {
   const Tree &views = at(gltf, "bufferViews"), &buffers = at(gltf, "buffers");

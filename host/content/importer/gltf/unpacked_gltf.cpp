@@ -165,6 +165,7 @@ class Unpacker {
 GltfBytes gltf_bytes(const std::filesystem::path& path, std::string bytes) {
   Tree gltf = gltf_json(bytes);
   require_within_buffers(path, gltf);
+  require_alike_attributes(path, gltf);
   const auto has_packed_view = [](const Tree& view) { return !packed_view(view).is_null(); };
   const std::set<std::size_t> accessors = packed_accessors(gltf);
   const Tree& views = at(gltf, "bufferViews");

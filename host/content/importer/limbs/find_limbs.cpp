@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/content/document/text.h"
 #include "host/content/importer/limbs/limb_draft.h"
@@ -30,8 +31,11 @@ std::size_t* joint_of(LimbDraft& draft, const std::string& limb) {
 std::optional<LimbDraft> limbs_by_map(const LimbMap& map) {
   LimbDraft draft;
   draft.by = map.by;
-  for (const auto& [limb, joint] : map.limbs)
-    if (std::size_t* place = joint_of(draft, limb)) *place = joint;
+  std::set<std::size_t> used;
+  for (const auto& [limb, joint] : map.limbs) {
+    std::size_t* const place = joint_of(draft, limb);
+    if (place != nullptr && used.insert(joint).second) *place = joint;
+  }
   if (draft.count() == 0) return std::nullopt;
   return draft;
 }

@@ -184,9 +184,4 @@ document::LongText film_text(FilmText film) {
   return parts;
 }
 
-void check_film_text(const document::LongText& text, const std::filesystem::path& path) {
-  const document::Document film(document::brief_of(text), path.string());
-  animator::read_film(film.root(), path.parent_path());
-}
-
 }  // namespace mars::importer

@@ -68,8 +68,4 @@ struct FilmText {
 
 document::LongText film_text(FilmText film);
 
-// Throws where MARS would refuse the film, in which its meshes stand in brief, which is a bug of ours: better found
-// here than by who renders it.
-void check_film_text(const document::LongText& text, const std::filesystem::path& path);
-
 }  // namespace mars::importer

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <limits>
+#include <vector>
 
 #include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
@@ -148,10 +150,43 @@ TEST_F(SceneFileTest, WeightsMayBeBytes) {
   EXPECT_EQ(import(packed).shapes.at(0).mesh->bones, import(plain).shapes.at(0).mesh->bones);
 }
 
+TEST_F(SceneFileTest, AttributesThatDoNotFitTheMeshAreRefused) {
+  const auto with = [&](const char* name, const char* key, const nlohmann::json& value) {
+    test::Glb glb = figure();
+    const auto index = glb.json["meshes"][0]["primitives"][0]["attributes"].at(name).get<std::size_t>();
+    glb.json["accessors"][index][key] = value;
+    return failure(glb);
+  };
+  constexpr const char* kProblem = "has a mesh whose places, normals, weights or the like do not fit each other (";
+  EXPECT_TRUE(document::holds(with("JOINTS_0", "count", 2), kProblem)) << with("JOINTS_0", "count", 2);
+  EXPECT_TRUE(document::holds(with("WEIGHTS_0", "type", "VEC2"), kProblem));
+  test::Glb second = figure();
+  auto& attributes = second.json["meshes"][0]["primitives"][0]["attributes"];
+  attributes["WEIGHTS_1"] = attributes["WEIGHTS_0"];
+  attributes["JOINTS_1"] = attributes["JOINTS_0"];
+  attributes.erase("WEIGHTS_0");
+  EXPECT_TRUE(document::holds(failure(second), kProblem));
+}
+
+// What a model cannot be is said of the file, not of the model that is not written.
+TEST_F(SceneFileTest, FilesThatMakeNoModelAreNamed) {
+  test::Glb glb = figure({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  std::vector<float> matrices;
+  for (std::size_t joint = 0; joint < glb.json["skins"][0]["joints"].size(); ++joint)
+    for (int i = 0; i < 16; ++i) matrices.push_back(i % 5 == 0 ? 1.0f : 0.0f);
+  matrices.back() = std::numeric_limits<float>::infinity();
+  glb.json["skins"][0]["inverseBindMatrices"] = glb.floats("MAT4", matrices);
+  EXPECT_TRUE(document::holds(failure(glb), "file.glb: makes a model that MARS refuses: ")) << failure(glb);
+}
+
 TEST_F(SceneFileTest, SkinsThatCannotBeReadAreRefused) {
   test::Glb none = figure();
   none.json["skins"][0].erase("inverseBindMatrices");
   EXPECT_TRUE(document::holds(failure(none), "file.glb: has a skin without inverse bind matrices (")) << failure(none);
+  test::Glb few = figure();
+  few.json["accessors"][few.json["skins"][0]["inverseBindMatrices"].get<std::size_t>()]["count"] = 1;
+  EXPECT_TRUE(document::holds(failure(few), "has a skin with fewer inverse bind matrices than joints ("))
+      << failure(few);
   test::Glb twice = figure();
   twice.json["skins"].push_back(twice.json["skins"][0]);
   twice.json["skins"][1]["inverseBindMatrices"] = 0;

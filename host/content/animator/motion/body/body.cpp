@@ -98,6 +98,9 @@ Leg leg_of(const Body& body, const Posture& drawn, const LegLimbs& limbs, modele
   const glm::dmat3 back = glm::transpose(body.axes);
   leg.thigh = glm::distance(hip, knee);
   leg.shin = glm::distance(knee, ankle);
+  if (leg.knee != modeler::kNone && !(leg.thigh > 0 && leg.shin > 0))
+    throw Failure("its thigh or shin has no length", "actor '" + body.name + "'",
+                  "in its model, place knees between hips and ankles");
   leg.aside = (back * (hip - place(body.pelvis))).y;
   const glm::dvec3 thigh = back * (knee - hip), shin = back * (ankle - knee);
   leg.bent = glm::degrees(std::atan2(thigh.z * shin.x - thigh.x * shin.z, thigh.x * shin.x + thigh.z * shin.z));
