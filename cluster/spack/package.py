@@ -41,6 +41,7 @@ class Mars(CMakePackage):
     depends_on("nlohmann-json@3.11:")
     depends_on("libjpeg-turbo")
     depends_on("assimp", when="+import")
+    depends_on("meshoptimizer", when="+import")
     depends_on("boost@1.74:", when="+studio")
     depends_on("openssl", when="+studio")
     depends_on("ffmpeg@5:+libx264+libvpx+libopus", when="+videos", type="run")

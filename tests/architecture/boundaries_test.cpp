@@ -77,6 +77,10 @@ TEST(Boundaries, CliInItsHostFolder) {
   EXPECT_EQ(files_including(std::regex("^CLI/")), (Files{"host/cli/command.cpp", "host/cli/program.cpp"}));
 }
 
+TEST(Boundaries, MeshoptimizerInItsHostFolder) {
+  expect_within(files_including(std::regex("^meshoptimizer.h")), "host/content/importer/gltf/");
+}
+
 TEST(Boundaries, AssimpInItsHostFolder) {
   expect_within(files_including(std::regex("^assimp/")), "host/content/importer/");
 }

@@ -1,5 +1,6 @@
 #include "host/content/importer/gltf/gltf_json.h"
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,16 @@ namespace mars::importer {
 namespace {
 
 const Tree kNull;
+constexpr std::uintmax_t kMostPacked = 16;  // how many times as many bytes packed ones may stand for, for limits
+
+// As the file says; bytes_of_buffers() sets a limit.
+std::uintmax_t bytes_of_packed_views(const Tree& gltf) {
+  std::uintmax_t sum = 0;
+  for (const Tree& view : at(gltf, "bufferViews"))
+    if (!at(at(view, "extensions"), "EXT_meshopt_compression").is_null())
+      sum += std::min<std::size_t>(number(at(view, "byteLength"), 0), kLargestMeshFile);
+  return sum;
+}
 
 }  // namespace
 
@@ -71,7 +82,8 @@ std::string percent_decoded(const std::string& uri) {
 }
 
 std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
-  const Tree tree = gltf_json(document::read_file(path, kLargestMeshFile));
+  const std::string bytes = document::read_file(path, kLargestMeshFile);
+  const Tree tree = gltf_json(bytes);
   std::uintmax_t sum = 0;
   for (const Tree& buffer : at(tree, "buffers")) {
     const Tree& uri = at(buffer, "uri");
@@ -81,7 +93,7 @@ std::uintmax_t bytes_of_buffers(const std::filesystem::path& path) {
         std::filesystem::file_size(companion(path, percent_decoded(uri.get_ref<const std::string&>())), error);
     if (!error) sum += size;
   }
-  return sum;
+  return sum + std::min<std::uintmax_t>(bytes_of_packed_views(tree), kMostPacked * (bytes.size() + sum));
 }
 
 }  // namespace mars::importer

@@ -42,7 +42,8 @@ std::uint32_t little_endian_at(std::string_view bytes, std::size_t at);
 // "my%20mesh.bin" is the file "my mesh.bin".
 std::string percent_decoded(const std::string& uri);
 
-// The size of the files that a glTF file's buffers name, which are read with it. Refuses those outside of its folder.
+// The size of the files that a glTF file's buffers name, which are read with it, and of what EXT_meshopt_compression
+// packs, within reason. Refuses buffers outside of its folder.
 std::uintmax_t bytes_of_buffers(const std::filesystem::path& path);
 
 }  // namespace mars::importer

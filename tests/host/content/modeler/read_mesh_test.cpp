@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "host/content/modeler/mirror.h"
 #include "host/content/modeler/read_model.h"
 #include "tests/host/content/document/failure_of.h"
 
@@ -107,6 +108,16 @@ TEST(ReadMesh, TellsWherePaintIsWrong) {
   EXPECT_TRUE(both(failure(kRoof + five + ", \"paint_faces\": [[0,0,0,0], [0,0,5]]"), "paint_faces[1][2]: is 5",
                    "from 0 to 4"));
   EXPECT_TRUE(document::holds(failure(kRoof + ", \"paint_faces\": [[0,0,0,0], [0,0,0]]"), "has no rows to number"));
+}
+
+// Faces run the other way round in a mirror, and what belongs to their corners with them.
+TEST(ReadMesh, PaintIsMirroredWithItsFaces) {
+  const std::string mesh =
+      kRoof + ", \"uv\": [[0,0], [1,0], [1,1], [0,1], [0.5,2]], \"paint_faces\": [[4,3,2,1], [0,2,4]]";
+  const document::Json mirrored = mirrored_shape(document::Json::parse("{\"mesh\": {" + mesh + "}}"))["mesh"];
+  EXPECT_EQ(mirrored["faces"].dump(), "[[0,1,2,3],[4,1,0]]");
+  EXPECT_EQ(mirrored["paint_faces"].dump(), "[[1,2,3,4],[4,2,0]]");
+  EXPECT_EQ(mirrored["uv"].dump(), "[[0,0],[1,0],[1,1],[0,1],[0.5,2]]");
 }
 
 }  // namespace

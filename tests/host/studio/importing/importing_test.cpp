@@ -49,6 +49,9 @@ case "$(cat "$2")" in
 esac
 (cd "$(dirname "$2")" && find . -type f | sort) >> "$(dirname "$0")/came"
 shift; echo "$@" >> "$(dirname "$0")/words"
+case "$(cat "$1")" in
+  painted*) mkdir "${3%.json}-images"; printf picture > "${3%.json}-images/a.png";;
+esac
 printf '{"made of": "%s"}' "$(cat "$1")" > "$3"
 echo "$3: model of one joint"; echo "  read       all of $1"
 )sh";
@@ -182,6 +185,19 @@ TEST_F(ImportingTest, AModelComesIntoTheFilm) {
   EXPECT_EQ(before_, (std::vector<editing::Command>{{"import", "rock.obj", "-o", "rock-2.json"}}));
   EXPECT_EQ(last()["reports"][0], "rock-2.json: model of one joint\n  read       all of rock.obj\n");
   EXPECT_EQ(last()["actors"], Json{"rock-2"});
+}
+
+// Under a name that neither a model nor a folder of images has: the model names its images.
+TEST_F(ImportingTest, ImagesComeBesideTheFilmWithTheirModel) {
+  fs::create_directory(folder_ / "films/rock-images");
+  send({{"rock.obj", "painted"}});
+  ASSERT_TRUE(ends("done")) << last();
+  EXPECT_EQ(left(), (Names{"rock-2-images", "rock-2.json", "rock-images"}));
+  EXPECT_EQ(text_of("films/rock-2-images/a.png"), "picture");
+  refuses_ = true;
+  send({{"rock.obj", "painted"}});
+  ASSERT_TRUE(ends("failed")) << last();
+  EXPECT_EQ(left(), (Names{"rock-2-images", "rock-2.json", "rock-images"})) << "what no film came to have";
 }
 
 TEST_F(ImportingTest, MotionsHaveTheFilmsFrames) {
