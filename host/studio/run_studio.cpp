@@ -24,12 +24,15 @@ void run_studio(const StudioSettings& settings) {
       return make_importing(context, {file, child::own_file()}, project, std::move(listener));
     };
     const auto thumbnails = [&context, file](Thumbnails::Listener listener) {
-      return make_thumbnails(context,
-                             {file, child::own_file(), child::temporary_folder(child::own_environment())},
+      return make_thumbnails(context, {file, child::own_file(), child::temporary_folder(child::own_environment())},
                              std::move(listener));
     };
     const NewFile begins = settings.film ? NewFile::film : NewFile::model;
-    return Parts{open_project(file, std::filesystem::current_path(), begins), link, make_stage, rendering, importing,
+    return Parts{open_project(file, std::filesystem::current_path(), begins),
+                 link,
+                 make_stage,
+                 rendering,
+                 importing,
                  thumbnails};
   });
 }

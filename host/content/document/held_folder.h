@@ -22,8 +22,8 @@ class HeldFolder {
   int held_;  // a file in it, locked: the kernel gives the lock back however the process ends
 };
 
-// Removes folders of this user that processes left which are gone: those of this prefix that no process holds. Not those
-// where the file system cannot lock.
+// Removes folders of this user that processes left which are gone: those of this prefix that no process holds. Not
+// those where the file system cannot lock.
 void remove_abandoned_folders(const std::filesystem::path& beside, const std::string& prefix);
 
 }  // namespace mars::document

@@ -58,17 +58,10 @@ void add_of_obj(std::string_view text, const std::string& of, std::vector<Compan
 std::vector<Companion> companions_of(const UploadFolder& folder, const std::string& file) {
   std::vector<Companion> companions;
   switch (importer::kind_of_name(file)) {
-    case FileKind::gltf:
-      add_of_gltf(importer::gltf_json(start_of(folder.uploaded(file))), file, companions);
-      break;
-    case FileKind::obj:
-      add_of_obj(start_of(folder.uploaded(file)), file, companions);
-      break;
-    case FileKind::amc:
-      companions.push_back({kAnySkeleton, file, true});
-      break;
-    default:
-      break;
+    case FileKind::gltf: add_of_gltf(importer::gltf_json(start_of(folder.uploaded(file))), file, companions); break;
+    case FileKind::obj: add_of_obj(start_of(folder.uploaded(file)), file, companions); break;
+    case FileKind::amc: companions.push_back({kAnySkeleton, file, true}); break;
+    default: break;
   }
   return companions;
 }

@@ -108,7 +108,9 @@ class LiveImporting final : public Importing {
     if (import_ && import_->page == page) end("stopped", "");
   }
 
-  void piece_came() { wait(settings_.for_files, [this] { files_did_not_come(); }); }
+  void piece_came() {
+    wait(settings_.for_files, [this] { files_did_not_come(); });
+  }
   void file_came();
   void upload_cut(const std::string& reason) { end("failed", reason); }
 

@@ -33,11 +33,11 @@ namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
 constexpr const char* kPrefix = "mars-thumbnails-";
-constexpr const char* kSize = "320x320";            // of the pictures
-constexpr std::uintmax_t kLargest = 1 << 20;        // bytes of one
+constexpr const char* kSize = "320x320";      // of the pictures
+constexpr std::uintmax_t kLargest = 1 << 20;  // bytes of one
 constexpr child::ProcessLimits kLimits{30s, std::uint64_t{8} << 30};
 constexpr int kBehindAllElse = 10;  // a priority: a tenth of the others' time where processors are busy
-constexpr int kLooks = 10;  // calls of look() between two looks at the folder
+constexpr int kLooks = 10;          // calls of look() between two looks at the folder
 
 class LiveThumbnails final : public Thumbnails {
  public:
@@ -134,8 +134,17 @@ void LiveThumbnails::draw_next() {
 
 void LiveThumbnails::draw(const ListedModel& model) {
   folder_ = std::make_unique<document::HeldFolder>(settings_.temporary, kPrefix);
-  const std::vector<std::string> words{settings_.mars.string(), "preview", file_of(model).string(), "--as", "surface",
-                                       "--frames", "0", "--size", kSize, "-o", (folder_->path() / "picture.png").string()};
+  const std::vector<std::string> words{settings_.mars.string(),
+                                       "preview",
+                                       file_of(model).string(),
+                                       "--as",
+                                       "surface",
+                                       "--frames",
+                                       "0",
+                                       "--size",
+                                       kSize,
+                                       "-o",
+                                       (folder_->path() / "picture.png").string()};
   process_ = std::make_unique<HostProcess>(
       context_,
       [&](const child::ProcessSetup& setup) {
@@ -146,10 +155,9 @@ void LiveThumbnails::draw(const ListedModel& model) {
         return process;
       },
       0s,
-      HostProcess::Listener{[](const std::string&) {},
-                            [this, model](const child::Ending& ending, const std::string& reason) {
-                              drawn(model, ending, reason);
-                            }});
+      HostProcess::Listener{
+          [](const std::string&) {},
+          [this, model](const child::Ending& ending, const std::string& reason) { drawn(model, ending, reason); }});
 }
 
 fs::path LiveThumbnails::file_of(const ListedModel& model) const {

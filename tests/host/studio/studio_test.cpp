@@ -58,8 +58,8 @@ class StudioTest : public testing::Test {
       thumbnails_ = thumbnails.get();
       return thumbnails;
     };
-    studio_.emplace(
-        Parts{std::move(project), make_link, make_stage, make_rendering, make_importing, make_thumbnails}, pages_);
+    studio_.emplace(Parts{std::move(project), make_link, make_stage, make_rendering, make_importing, make_thumbnails},
+                    pages_);
   }
 
   void say(PageNumber page, const char* message) { studio_->handle_message(page, Json::parse(message)); }

@@ -71,7 +71,8 @@ export class ImportPanel {
 
   #made(file, report) {
     const [name, what, rows] = reportParts(report);
-    return element("section", {class: "made"}, element("div", {class: "model"}, this.models.picture(file), element("div", {}, name, what)), rows);
+    const picture = what.textContent.startsWith("Model") && this.models.picture(file);  // a motion is a film
+    return element("section", {class: "made"}, element("div", {class: "model"}, picture, element("div", {}, name, what)), rows);
   }
 
   #going(name) {

@@ -308,7 +308,8 @@ TEST_F(ImportingTest, ItDoesNotWaitForEver) {
   make_impatient();
   send({{"figure.gltf", kFigure}});
   ASSERT_TRUE(ends("failed"));
-  EXPECT_EQ(last()["text"], "a figure.bin did not come within 1 second: figure.gltf cannot be read without (import them together)");
+  EXPECT_EQ(last()["text"],
+            "a figure.bin did not come within 1 second: figure.gltf cannot be read without (import them together)");
   begin({{"ball.ply", "round"}, {"rock.obj", "stone"}});
   {
     const auto up = upload(0, 5);
@@ -316,7 +317,8 @@ TEST_F(ImportingTest, ItDoesNotWaitForEver) {
     up->end();
   }
   ASSERT_TRUE(ends("failed"));
-  EXPECT_EQ(last()["text"], "rock.obj did not come: the page sent nothing for 1 second (import the files again, together)");
+  EXPECT_EQ(last()["text"],
+            "rock.obj did not come: the page sent nothing for 1 second (import the files again, together)");
   EXPECT_EQ(left(), Names{});
 }
 
