@@ -13,9 +13,6 @@ std::string name_of(const Tree& named) {
   return name.is_string() ? name.get<std::string>() : "";
 }
 
-// glTF's number of the type float (3.6.2.2).
-constexpr std::size_t kFloatType = 5126;
-
 // Assimp crashes where a skin has no matrices, reads beyond the last where these are too few, and gives a mesh under
 // two skins the bones of one.
 void refuse_skin(const std::filesystem::path& path, const Tree& gltf, const Tree& node,

@@ -14,6 +14,7 @@ namespace mars::importer {
 
 using Tree = nlohmann::json;
 
+inline constexpr std::size_t kFloatType = 5126;  // of components of numbers (glTF 2.0, 3.6.2.2)
 inline constexpr std::uintmax_t kLargestMeshFile = std::uintmax_t{1} << 30;
 
 // Whether the file is a GLB, by how its bytes begin.

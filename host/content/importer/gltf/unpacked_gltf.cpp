@@ -17,7 +17,6 @@ namespace mars::importer {
 namespace {
 
 constexpr std::string_view kMeshopt = "EXT_meshopt_compression", kQuantization = "KHR_mesh_quantization";
-constexpr std::size_t kFloatType = 5126;
 constexpr std::size_t kLargestView = std::size_t{1} << 31;
 constexpr std::array<std::string_view, 3> kModes{"ATTRIBUTES", "TRIANGLES", "INDICES"};
 constexpr std::array<std::string_view, 4> kFilters{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
