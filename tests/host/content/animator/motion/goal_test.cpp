@@ -11,6 +11,7 @@
 #include "host/content/animator/motion/body/body.h"
 #include "host/content/animator/motion/body/hand.h"
 #include "host/content/animator/motion/body/surface.h"
+#include "host/content/animator/motion/scene/target.h"
 #include "host/content/animator/pose/attachments.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
@@ -283,6 +284,41 @@ TEST(Put, PutsWhatItHoldsDownAtAPlace) {
     expect_limits(film, done, figure.name);
     expect_feet(film, done, 2 * kMillimetre * figure.size, figure.name);
   }
+}
+
+// A board that stands on an edge at rest, 2 high, and lies 1 over the floor when its skin's joint turns.
+document::Json board() {
+  const document::Json bones = document::Json::array({{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}});
+  return document::Json::parse(R"({"shapes": {"board": {"mesh": {
+      "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]],
+      "faces": [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]], "bones": )" +
+                               bones.dump() + R"(}}},
+    "joints": [{"name": "wall", "segment": {"shape": "board", "sbb": [[-0.1, -1, 0.9], [0.1, 1, 2.9]],
+                "skin": {"joints": ["hinge"]}}},
+               {"name": "hinge", "parent": "wall", "place": [0, 0, 1]}]})");
+}
+
+TEST(Seats, AreWhereSkinsAreBent) {
+  document::Json json = film_with(human());
+  json["models"]["board"] = board();
+  json["actors"].push_back(
+      {{"name", "bed"}, {"model", "board"}, {"place", {5, 2, 0}}, {"pose", {{"hinge", {0, 90, 0}}}}});
+  const animator::Film film = read(json);
+  const Arguments none({}, "test");
+  const Scene scene{film, film.actors[0], 0, none, "sit"};
+  for (const Target& target : {Target{1}, Target{1, 0}, Target{1, 1}}) {
+    const Block block = block_of(scene, target, 0);
+    EXPECT_NEAR(block.top(), 1.1, 1e-6);
+    EXPECT_NEAR(block.bottom(), 0.9, 1e-6);
+    EXPECT_NEAR(block.middle.x, 5.9, 1e-6);
+  }
+  EXPECT_NEAR(place_of(film, {1}, 0).x, 5.9, 1e-6);
+  act(json, "sit on bed", 0);
+  const animator::Film sat = read(json);
+  const std::size_t pelvis = sat.models[0].limbs.of(modeler::Trunk::pelvis);
+  const std::uint32_t last = animator::last_key(sat.actors[0]);
+  EXPECT_LT(animator::JointFrames(sat).frame_of(0, pelvis, last).place.z, 2);
+  EXPECT_GT(animator::JointFrames(sat).frame_of(0, pelvis, last).place.z, 1.1);
 }
 
 TEST(Toss, HitsItsPlaceAndBounces) {
