@@ -1,42 +1,24 @@
 #include "host/content/animator/motion/body/digits.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <map>
 #include <optional>
 
+#include "host/content/animator/motion/body/finger_names.h"
 #include "host/content/animator/motion/body/reach.h"
 #include "host/content/animator/motion/body/surface.h"
 
 namespace mars::motion {
 namespace {
 
-// In names of fingers' joints, in small letters: those of Mixamo, VRM, Unity, VRoid, Rigify (f_index.01.L), Unreal, Daz
-// (lMid1), Character Creator, Quaternius and MARS's library; "finger" and a number, of Biped and MakeHuman, the thumb's
-// the lowest; "fingers", a mitten.
-constexpr std::string_view kWords[] = {"thumb", "index", "middle", "mid", "ring", "pinky", "little", "finger"};
-constexpr std::string_view kInPalm = "carpal";  // which does not bend, but in a thumb
-
 // Degrees from straight, of a finger's joints and a thumb's; and of the thumb's first one from how it is drawn.
 constexpr double kMostFinger[] = {85, 100, 75}, kMostThumb[] = {40, 60, 75};
 constexpr double kThumbBack = -20, kBack = -5;    // how far the first joint opens
 constexpr double kSame = 0.94, kSameThumb = 0.8;  // cosines: an axis of a joint is the hinge
 constexpr int kPads = 4;                          // of a phalanx
-
-// The finger that a joint's name says: "thumb", "finger2"; "" if it is none.
-std::string finger_of(const std::string& name) {
-  std::string letters;
-  for (const char each : name) letters += static_cast<char>(std::tolower(static_cast<unsigned char>(each)));
-  for (const std::string_view word : kWords) {
-    const std::size_t at = letters.find(word);
-    if (at == std::string::npos || (word != "thumb" && letters.find(kInPalm) != std::string::npos)) continue;
-    return std::string(word) + (word == "finger" ? letters.substr(at + word.size(), 1) : "");
-  }
-  return "";
-}
 
 // Signed, in degrees, about the hinge.
 double bend_between(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& hinge) {
@@ -205,15 +187,6 @@ class FindingDigits {
 std::vector<Digit> digits_of(const modeler::Model& model, const Hand& hand, const glm::dvec3& thing) {
   if (finger_joints_below(model, hand.end).empty()) return {};
   return FindingDigits(model, hand, thing).found();
-}
-
-std::vector<std::size_t> finger_joints_below(const modeler::Model& model, std::size_t hand) {
-  std::vector<std::size_t> joints;
-  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-    if (joint != hand && modeler::is_at_or_below(model.joints, joint, hand) &&
-        !finger_of(model.joints[joint].name).empty())
-      joints.push_back(joint);
-  return joints;
 }
 
 glm::dvec3 bent(const modeler::Model& model, const Phalanx& phalanx, double degrees, const glm::dvec3& now) {

@@ -32,9 +32,6 @@ struct Digit {
 // bends towards `thing`, a place in the frame of the hand's end, other fingers towards the palm.
 std::vector<Digit> digits_of(const modeler::Model& model, const Hand& hand, const glm::dvec3& thing);
 
-// The joints of all fingers, named as such, below a joint.
-std::vector<std::size_t> finger_joints_below(const modeler::Model& model, std::size_t hand);
-
 // The numbers of a phalanx' joint that is bent by so many degrees from how it is drawn. Numbers about other axes than
 // its own hinge stay as they are.
 glm::dvec3 bent(const modeler::Model& model, const Phalanx& phalanx, double degrees, const glm::dvec3& now);

@@ -5,7 +5,7 @@
 #include <glm/matrix.hpp>
 #include <optional>
 
-#include "host/content/animator/motion/body/digits.h"
+#include "host/content/animator/motion/body/finger_names.h"
 #include "host/content/animator/motion/body/stance.h"
 #include "host/content/animator/motion/body/surface.h"
 
