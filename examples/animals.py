@@ -137,7 +137,7 @@ def horse(unit):
     beast.leg("hind", "pelvis", hind, hoof)
     beast.leg("fore", "chest", fore, hoof)
     beast.clothe(animal_cages.HORSE, coat, "sock")
-    beast.shapes["mane"] = clothe(beast.joints, "mane", "mane", animal_cages.mane(), dark, unit, 0)
+    beast.shapes["mane"] = clothe(beast.joints, "mane", "mane", animal_cages.mane(), dark, unit, 1)
     return beast.model({"pelvis": "pelvis", "chest": "chest", "neck": "neck", "head": "head"})
 
 

@@ -139,7 +139,7 @@ def face(side, sign, unit):
 # ---- Surfaces that bend: shape, the joint that has it, material, level. Those of a pair are the left ones.
 
 SURFACES = [(human_cages.trousers, "trousers", "trousers", 1), (human_cages.shirt, "shirt", "shirt", 1),
-            (human_cages.head_and_neck, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 0),
+            (human_cages.head_and_neck, "head", "skin", 1), (human_cages.ear, "left-ear", "skin", 1),
             (human_cages.arm, "left-arm", "skin", 1), (human_cages.shoe, "left-foot", "shoe", 0),
             (human_cages.sole, "left-sole", "rubber", 0)]
 

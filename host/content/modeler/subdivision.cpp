@@ -11,6 +11,7 @@ namespace mars::modeler {
 namespace {
 
 constexpr std::uint32_t kNoFace = ~std::uint32_t{0};
+constexpr std::size_t kMostJoined = 6;  // edges of a point: of more, what joins smoothly is too far from a mean
 
 struct Edge {
   std::uint32_t ends[2];
@@ -154,6 +155,19 @@ double farthest_of_means(const Mean& from, std::span<const std::vector<Term>> wa
   return far;
 }
 
+// Of a ring of `count` numbers x the sums s of neighbours are known, s[k] = x[k - 1] + x[k]. The least x that has these
+// sums, or is nearest to them, is x[k] = sum over m of parts[m] s[k + m].
+std::vector<double> parts_of_sums(std::size_t count) {
+  std::vector<double> parts(count, 0);
+  for (std::size_t m = 0; m < count; ++m)
+    for (std::size_t wave = 0; wave < count; ++wave) {
+      if (2 * wave == count) continue;  // whose sums are 0
+      const double half = std::numbers::pi * double(wave) / double(count);
+      parts[m] += std::cos(half * (2 * double(m) - 1)) / (2 * std::cos(half)) / double(count);
+    }
+  return parts;
+}
+
 // Bezier points of quads: of each point one, of each edge two, of each face four.
 class QuadPatches {
  public:
@@ -166,9 +180,11 @@ class QuadPatches {
       for (const std::uint32_t end : edge.ends) on_edges_.push_back(edge_point(edge, end));
     for (std::uint32_t point = 0; point < topology_.points(); ++point) {
       net_.means.push_back(corner_point(point));
-      if (topology_.around(point).border.empty() && topology_.around(point).edges.size() != 4)
-        flatten(point, net_.means.back());
+      if (is_irregular(point)) flatten(point, net_.means.back());
     }
+    for (const auto step : {&QuadPatches::join, &QuadPatches::ease})
+      for (std::uint32_t point = 0; point < topology_.points(); ++point)
+        if (is_irregular(point) && topology_.around(point).edges.size() <= kMostJoined) (this->*step)(point);
     net_.means.insert(net_.means.end(), on_edges_.begin(), on_edges_.end());
     net_.means.insert(net_.means.end(), inner_.begin(), inner_.end());
     for (std::uint32_t face = 0; face < topology_.faces().size(); ++face) net_.patches.push_back(patch_of(face));
@@ -246,6 +262,84 @@ class QuadPatches {
   struct Spoke {
     std::uint32_t on_edge, inner;
   };
+
+  bool is_irregular(std::uint32_t point) const {
+    return topology_.around(point).border.empty() && topology_.around(point).edges.size() != 4;
+  }
+
+  // Of a straight grid 0: as far as the middle of the edges before and behind an edge from the point lies along it, in
+  // lengths of its first part.
+  double bend_at(std::uint32_t point) const {
+    if (!is_irregular(point)) return 0;
+    return std::cos(2 * std::numbers::pi / double(topology_.around(point).edges.size()));
+  }
+
+  // Let an edge have the Bezier points p, and the points beside it be q and r. Normals on its sides are the same where
+  // q + r - 2 p is a multiple of p's derivative, which goes evenly from 2 cos(2 pi / n) at the one end, where n edges
+  // meet, to 0 at the other. So, with differences d of p, and b = cos(2 pi / n):
+  //   q1 + r1 - 2 p1 = 4 b d1 / 3      join
+  //   q2 + r2 - 2 p2 = 2 b d2 / 3      ease
+  // and of edges between two such points, whose ends have b and B: q1 + r1 - 2 p1 = 4 b d1 / 3 - 2 B d0 / 3. Points
+  // stay means, so this holds but nearly.
+  //
+  // Each inner point lies beside two of the edges: the least changes of all that suit these.
+  void join(std::uint32_t point) {
+    const std::vector<Spoke> spokes = spokes_of(point);
+    const std::size_t count = spokes.size();
+    const double bend = bend_at(point);
+    const std::vector<double> parts = parts_of_sums(count);
+    std::vector<Mean> joined;
+    for (std::size_t k = 0; k < count; ++k) {
+      std::vector<Share> shares{{inner_[spokes[k].inner], 1}};
+      for (std::size_t m = 0; m < count; ++m) {
+        const Spoke &spoke = spokes[(k + m) % count], &before = spokes[(k + m + count - 1) % count];
+        const std::uint32_t end = end_of(spoke, point);
+        const double other = bend_at(end), far = 4 * bend / 3 * (is_irregular(end) ? 1 : 1 + shortened(bend));
+        shares.push_back({on_edges_[spoke.on_edge], parts[m] * (2 - far - 2 * other / 3)});
+        shares.push_back({on_edges_[spoke.on_edge ^ 1], parts[m] * far});
+        shares.push_back({net_.means[point], parts[m] * 2 * other / 3});
+        for (const std::uint32_t beside : {spoke.inner, before.inner}) shares.push_back({inner_[beside], -parts[m]});
+      }
+      joined.push_back(sum_of(shares));
+    }
+    for (std::size_t k = 0; k < count; ++k) inner_[spokes[k].inner] = std::move(joined[k]);
+  }
+
+  // How much of the last third of an edge ease() takes away where three edges meet at its beginning.
+  static double shortened(double bend) { return bend < 0 ? 1 - 1 / (1 - bend / 3) : 0; }
+
+  std::uint32_t end_of(const Spoke& spoke, std::uint32_t point) const {
+    return topology_.edges()[spoke.on_edge / 2].other(point);
+  }
+
+  // At the regular ends of the edges: where three meet p2 comes nearer to the end; where more do q2 and r2 come nearer
+  // to the next edges.
+  void ease(std::uint32_t point) {
+    const double bend = bend_at(point), nearer = shortened(bend);
+    for (const Spoke& spoke : spokes_of(point)) {
+      const std::uint32_t end = end_of(spoke, point);
+      if (is_irregular(end)) continue;
+      Mean& far = on_edges_[spoke.on_edge ^ 1];
+      if (bend < 0) {
+        far = sum_of(std::array{Share{far, 1 - nearer}, Share{net_.means[end], nearer}});
+        continue;
+      }
+      for (const std::uint32_t face : topology_.edges()[spoke.on_edge / 2].faces) {
+        Mean& inner = inner_[inner_number(face, end)];
+        inner = sum_of(
+            std::array{Share{inner, 1 - bend / 3}, Share{on_edges_[next_edge_point(face, end, point)], bend / 3}});
+      }
+    }
+  }
+
+  // On the face's other edge at `point` than that to `end`, next to `point`.
+  std::uint32_t next_edge_point(std::uint32_t face, std::uint32_t point, std::uint32_t end) const {
+    const auto& corners = topology_.faces()[face];
+    const std::uint32_t at = inner_number(face, point) % 4;
+    const std::uint32_t after = corners[(at + 1) % 4], before = corners[(at + 3) % 4];
+    const std::uint32_t edge = topology_.edge_between(point, after == end ? before : after);
+    return 2 * edge + (topology_.edges()[edge].ends[0] == point ? 0 : 1);
+  }
 
   std::vector<Spoke> spokes_of(std::uint32_t point) const {
     std::vector<Spoke> spokes;

@@ -19,7 +19,10 @@
 namespace mars::modeler {
 namespace {
 
-constexpr double kSmooth = 0.5;      // degrees between normals of neighbours, where four patches meet at either end
+// Degrees between normals of neighbours, at most.
+constexpr double kSmooth = 0.5;      // where four patches meet at each corner of both
+constexpr double kBeside = 5.5;      // where four meet at both ends of what they share, but not at another corner
+constexpr double kAnywhere = 3.8;    // at rest, along all that they share
 constexpr double kMostVolume = 1.4;  // of a surface, bent, to what it is at rest; and the least the other way round
 
 // Frames of all joints with one turned by `pose`.
@@ -73,6 +76,11 @@ class Surface {
           sides[edge] = {patch, side};
         }
       }
+    for (const wire::Patch& patch : patches)
+      is_regular_.push_back(std::ranges::none_of(sides_of(patch), [&](const Edge& edge) {
+        const int meet = corners_.at(edge[0]);
+        return meet == 3 || meet > 4;  // 2 or 1 at a hem
+      }));
     for (const auto& [edge, side] : sides) rims_[edge[0]] = {side, edge[3]};
     while (!rims_.empty()) hems_.push_back(taken_loop());
   }
@@ -89,14 +97,26 @@ class Surface {
     }));
   }
 
-  // The greatest jump of the normal, in degrees, between sides at both of whose ends four patches meet.
-  double jump(const std::vector<wire::Patch>& now) const {
+  // The greatest jump of the normal, in degrees, between sides at both of whose ends four patches meet: where they do
+  // so at the other corners of both patches, or do not.
+  double jump(const std::vector<wire::Patch>& now, bool at_other_corners) const {
     double most = 0;
     for (const Join& join : joins_) {
       if (corners_.at(join.from) != 4 || corners_.at(join.to) != 4) continue;
+      if ((is_regular_[join.one.patch] && is_regular_[join.other.patch]) != at_other_corners) continue;
       most = std::max(most, degrees_between(normal_on(now[join.one.patch], join.one.side, 0.4),
                                             normal_on(now[join.other.patch], join.other.side, 0.6)));
     }
+    return most;
+  }
+
+  // The same of all sides, at seven places of each.
+  double jump_anywhere(const std::vector<wire::Patch>& now) const {
+    double most = 0;
+    for (const Join& join : joins_)
+      for (int place = 0; place <= 6; ++place)
+        most = std::max(most, degrees_between(normal_on(now[join.one.patch], join.one.side, place / 6.0),
+                                              normal_on(now[join.other.patch], join.other.side, 1 - place / 6.0)));
     return most;
   }
 
@@ -152,6 +172,7 @@ class Surface {
   std::map<Point, Rim> rims_;
   std::vector<std::vector<Side>> hems_;
   std::map<Point, int> corners_;  // how many patches meet there
+  std::vector<bool> is_regular_;  // of each patch
 };
 
 struct Bounds {
@@ -208,7 +229,8 @@ void check(const Model& model, const Skin& skin, const std::vector<Axes>& frames
   const std::vector<wire::Patch> now = skinned.patches_of(*model.shapes[skin.joint->segment->shape].net);
   EXPECT_LT(beyond(bounds_of(model, *skin.joint, skinned), now), 1e-5) << pose;
   EXPECT_EQ(skin.surface.cracks(now), 0u) << pose;
-  EXPECT_LT(skin.surface.jump(now), kSmooth) << pose;
+  EXPECT_LT(skin.surface.jump(now, true), kSmooth) << pose;
+  EXPECT_LT(skin.surface.jump(now, false), kBeside) << pose;
   const double volume = skin.surface.volume(now) / skin.volume;
   EXPECT_GT(volume, 1 / kMostVolume) << pose;
   EXPECT_LT(volume, kMostVolume) << pose;
@@ -228,6 +250,11 @@ TEST_P(FiguresBend, ToEveryLimitWithoutCracksOrLines) {
       found[model.shapes[joint.segment->shape].name] = skins.back().surface.hems();
     }
   EXPECT_EQ(found, hems);
+  for (const Skin& skin : skins) {
+    const ControlNet& net = *model.shapes[skin.joint->segment->shape].net;
+    EXPECT_LT(skin.surface.jump_anywhere(bent(*skin.joint, posed_frames(model, kNone, {})).patches_of(net)), kAnywhere)
+        << skin.joint->name;
+  }
   std::size_t poses = 0;
   for (std::size_t turned = 0; turned < model.joints.size(); ++turned) {
     if (model.joints[turned].name.starts_with("right-")) continue;  // as the left ones, in a mirror

@@ -1,4 +1,4 @@
-// Which points of a figure's surface which joints move.
+// A figure's surface as it stands, and which points of it which joints move.
 #pragma once
 
 #include <functional>
@@ -8,6 +8,21 @@
 #include "host/content/animator/motion/body/posture.h"
 
 namespace mars::motion {
+
+struct SurfacePoint {
+  glm::dvec3 place;     // in the world
+  std::size_t joint;    // that moves it; of a skin the one that the point follows most
+  std::size_t segment;  // the joint whose segment it belongs to
+};
+
+struct Surface {
+  std::vector<SurfacePoint> points;
+  std::vector<modeler::Mesh::Triangle> triangles;
+};
+
+// With joints in these frames. Patches give `grid` points along each side, 2 or more.
+Surface surface_of(const modeler::Model& model, const std::function<modeler::Axes(std::size_t joint)>& frame_of,
+                   int grid);
 
 // In the world: of the segments of joints for which `counts(joint)` holds, and of skins the vertices that follow such a
 // joint more than any other. Patches give a few points each.

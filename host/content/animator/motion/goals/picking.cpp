@@ -17,13 +17,15 @@
 #include "host/content/animator/motion/gaits/gait.h"
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/body/pull.h"
+#include "host/content/animator/motion/goals/grasp.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
 #include "host/content/animator/motion/scene/target.h"
 
 namespace mars::motion {
 namespace {
 
-constexpr Parameter kSeconds{"seconds", "S", "down and up again; default: 1.2, more if the figure bends down", "2.5"};
+constexpr Parameter kSeconds{
+    "seconds", "S", "down and up again; default: 1.2, more if the figure bends down or has fingers to close", "2.5"};
 constexpr Parameter kPick[] = {{"what", "ACTOR", "the actor that the figure picks up; required", "ball"},
                                {"hand", "SIDE", "left or right; default: the nearer one", "left"},
                                kSeconds};
@@ -32,11 +34,14 @@ constexpr Parameter kPut[] = {{"to", "X Y Z", "the place at which the thing stan
                               kSeconds};
 
 constexpr double kSeconds0 = 1.2, kSecondsDown = 1.1;  // and so much more for the lowest
+constexpr double kSecondsGrip = 0.25;                  // while fingers close or open and the hand waits
 constexpr int kDepths = 24;                            // tries from upright to the lowest
 constexpr double kStretch = 0.93;                      // of the arm, that it likes to be stretched to
 constexpr double kFar = 0.002;                         // of the arm: what is nearer is there
 constexpr double kClear = 0.35;                        // of the arm, from where a hand goes straight to the thing
 constexpr double kMostTwist = 50;                      // degrees
+constexpr double kRelaxing = 0.4;                      // of the way back, from where fingers are as they hang
+constexpr double kOpening[] = {0.15, 0.75};            // of the way to the thing: meanwhile fingers stretch
 
 constexpr std::string_view kHands[] = {"left", "right"};
 
@@ -213,15 +218,19 @@ Posture with(const Body& body, const Posture& start, const std::map<std::size_t,
   return posture;
 }
 
+// Frames down, while the hand waits for its fingers, and up.
 struct Timing {
-  int down, up;
+  int down, wait, up;
 };
 
-Timing timing_of(const Scene& scene, double depth) {
-  const double seconds = scene.arguments.number("seconds", kSeconds0 + kSecondsDown * depth, {0.1, 60});
+Timing timing_of(const Scene& scene, double depth, bool has_fingers) {
+  const double grip = has_fingers ? kSecondsGrip : 0;
+  const double seconds = scene.arguments.number("seconds", kSeconds0 + kSecondsDown * depth + grip, {0.1, 60});
   const int frames = static_cast<int>(std::max(2.0, std::round(scene.frames(seconds))));
   scene.last_after(frames);
-  return {frames / 2, frames - frames / 2};
+  const int wait = std::min(static_cast<int>(std::round(scene.frames(grip))), frames / 4);
+  const int down = (frames - wait) / 2;
+  return {down, wait, frames - wait - down};
 }
 
 modeler::Side nearer_hand(const Scene& scene, const Body& body, const glm::dvec3& place) {
@@ -242,9 +251,26 @@ std::vector<std::size_t> driven(const Body& body) {
   return joints;
 }
 
-void add(Rehearsal& rehearsal, const Body& body, const std::vector<Posture>& postures) {
+void add(Rehearsal& rehearsal, const Body& body, const Fingers& fingers, const std::vector<Posture>& postures) {
   const std::uint32_t first = rehearsal.at();
-  rehearsal.add({keys_of(body, driven(body), postures, first), first + std::uint32_t(postures.size()) - 1});
+  std::vector<std::size_t> joints = driven(body);
+  for (const auto& [joint, numbers] : fingers) joints.push_back(joint);
+  rehearsal.add({keys_of(body, joints, postures, first), first + std::uint32_t(postures.size()) - 1});
+}
+
+// The fingers' way from `from` to `to` between two of the postures; before and after these they stay.
+void move_fingers(const Fingers& from, const Fingers& to, double first, double last, std::vector<Posture>& postures) {
+  for (std::size_t i = 0; i < postures.size(); ++i)
+    blend(from, to, smooth(first, std::max(last, first + 1e-9), double(i)), postures[i]);
+}
+
+// The hand stays where it is for so many frames, while its fingers move.
+void wait(Rehearsal& rehearsal, const Body& body, const Fingers& from, const Fingers& to, int frames,
+          const Posture& posture) {
+  if (frames == 0) return;
+  std::vector<Posture> postures(static_cast<std::size_t>(frames) + 1, posture);
+  move_fingers(from, to, 0, frames, postures);
+  add(rehearsal, body, from, postures);
 }
 
 }  // namespace
@@ -287,20 +313,28 @@ Motion pick(const Scene& scene) {
   require_two_legs(scene.model(), scene.actor.name, "pick");
   const Body body = body_of(scene.model(), scene.actor.name, "pick");
   // Where it is when the hand is there, and so when that is.
-  Timing timing = timing_of(scene, 0.5);
+  Timing timing = timing_of(scene, 0.5, true);
   for (int tries = 0;; ++tries) {
     const std::uint32_t contact = scene.at + std::uint32_t(timing.down);
     const Block block = block_of(scene, {what->actor}, contact);
     const Hand hand = hand_of(body, nearer_hand(scene, body, block.middle), "pick");
     const double radius = std::min({block.half.x, block.half.y, block.half.z});
+    const std::vector<Digit> digits = digits_of(*body.model, hand, hand.around(radius));
     const Handling handling(scene, body, hand, hand.around(radius), block.middle);
-    const Timing needed = timing_of(scene, handling.depth());
+    const Timing needed = timing_of(scene, handling.depth(), !digits.empty());
     if (needed.down != timing.down && tries < 3) {
       timing = needed;
       continue;
     }
+    timing = needed;
+    const Posture start = posture_of(scene);
+    const Fingers now = fingers_in(digits, start), open = open_fingers(*body.model, digits, start);
     Rehearsal rehearsal(scene);
-    add(rehearsal, body, handling.there(timing.down));
+    std::vector<Posture> there = handling.there(timing.down);
+    move_fingers(now, open, kOpening[0] * timing.down, kOpening[1] * timing.down, there);
+    const Solid thing(scene.film, what->actor, contact, frame_in(*body.model, there.back(), hand.end));
+    const Fingers closed = closed_fingers(*body.model, digits, hand.end, start, thing);
+    add(rehearsal, body, now, there);
     const std::string joint = body.joint_name(hand.end);
     const std::size_t figure = std::size_t(&scene.actor - scene.film.actors.data());
     animator::JointFrames frames(rehearsal.film());
@@ -309,7 +343,10 @@ Motion pick(const Scene& scene) {
     rehearsal.attach(
         what->actor, contact,
         {scene.actor.name, joint, animator::rounded(held.place), animator::rounded(canonical_degrees(held.turn))});
-    add(rehearsal, body, handling.back(timing.up, with(body, posture_of(scene), carrying(body, hand))));
+    wait(rehearsal, body, open, closed, timing.wait, there.back());
+    std::vector<Posture> back = handling.back(timing.up, with(body, start, carrying(body, hand)));
+    move_fingers(closed, closed, 0, 0, back);
+    add(rehearsal, body, now, back);
     Motion motion = rehearsal.take();
     motion.report =
         "takes '" + scene.film.actors[what->actor].name + "' with '" + joint + "' at frame " + std::to_string(contact);
@@ -325,12 +362,18 @@ Motion put(const Scene& scene) {
   const Holding holding = holding_of(scene, body);
   const glm::dvec3 held = animator::attachment_at(scene.film.actors[holding.actor], scene.at)->place;
   const Handling handling(scene, body, holding.hand, held, *to);
-  const Timing timing = timing_of(scene, handling.depth());
+  const std::vector<Digit> digits = digits_of(*body.model, holding.hand, held);
+  const Timing timing = timing_of(scene, handling.depth(), !digits.empty());
+  const Posture start = posture_of(scene);
+  const Fingers closed = fingers_in(digits, start), open = open_fingers(*body.model, digits, start);
   Rehearsal rehearsal(scene);
-  add(rehearsal, body, handling.there(timing.down));
+  const std::vector<Posture> there = handling.there(timing.down);
+  add(rehearsal, body, closed, there);
   rehearsal.attach(holding.actor, rehearsal.at(), {});
-  const auto ease = at_ease(body);
-  add(rehearsal, body, handling.back(timing.up, with(body, posture_of(scene), ease)));
+  wait(rehearsal, body, closed, open, timing.wait, there.back());
+  std::vector<Posture> back = handling.back(timing.up, with(body, start, at_ease(body)));
+  move_fingers(open, relaxed_fingers(*body.model, digits), kRelaxing * timing.up, timing.up, back);
+  add(rehearsal, body, closed, back);
   return rehearsal.take();
 }
 

@@ -16,6 +16,7 @@
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/laws/flight.h"
 #include "host/content/animator/motion/laws/kinematic.h"
+#include "host/content/animator/motion/goals/grasp.h"
 #include "host/content/animator/motion/goals/picking.h"
 #include "host/content/animator/motion/scene/gravity.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
@@ -43,6 +44,7 @@ constexpr double kFollow = 32;                               // degrees beyond t
 constexpr double kDip = 0.16;                                // of the deepest bend, while it swings
 constexpr double kBeside = 50;                               // degrees from where the figure looks
 constexpr double kQuickest = 0.12;                           // seconds of the swing forward
+constexpr double kLetGo = 0.1;                               // seconds in which fingers stretch
 
 struct Throw {
   glm::dvec3 velocity;
@@ -70,7 +72,17 @@ class ArmSwing {
         hand_(holding.hand),
         thing_(holding.actor),
         start_(posture_of(scene)),
-        crouch_(body, start_, scene.where()) {}
+        crouch_(body, start_, scene.where()),
+        digits_(digits_of(*body.model, hand_, animator::attachment_at(scene.film.actors[thing_], scene.at)->place)),
+        open_(open_fingers(*body.model, digits_, start_)),
+        relaxed_(relaxed_fingers(*body.model, digits_)) {}
+
+  // That it moves.
+  std::vector<std::size_t> joints() const {
+    std::vector<std::size_t> joints = body_.joints();
+    for (const auto& [joint, numbers] : open_) joints.push_back(joint);
+    return joints;
+  }
 
   double heading() const { return body_.heading_of(start_); }
 
@@ -118,6 +130,7 @@ class ArmSwing {
           posture.pose[joint] = glm::mix(followed.pose[joint], rest.pose[joint], down);
       }
       if (frame == 0) posture = released;
+      let_go(frame, shape, released, posture);
       postures.push_back(posture);
     }
     return postures;
@@ -136,6 +149,14 @@ class ArmSwing {
     crouch_.take(depth, sign_of(hand_.side) * -twist * -1, bent);
     for (const std::size_t joint : hand_.joints()) bent.pose[joint] = posture.pose[joint];
     posture = bent;
+  }
+
+  // Fingers stretch at once, and relax while the arm goes down.
+  void let_go(int frame, const Shape& shape, const Posture& released, Posture& posture) const {
+    const double stretched = smooth(0, std::max(1.0, scene_.frames(kLetGo)), frame);
+    blend(fingers_in(digits_, released), open_, stretched, posture);
+    if (frame > shape.through)
+      blend(open_, relaxed_, smooth(shape.through, shape.through + shape.rest, frame), posture);
   }
 
   // `share` of the way from where the arm was.
@@ -157,6 +178,8 @@ class ArmSwing {
   std::size_t thing_;
   Posture start_;
   Crouch crouch_;
+  std::vector<Digit> digits_;
+  Fingers open_, relaxed_;
 };
 
 std::string text(double value) { return document::shown(std::round(value * 100) / 100 + 0.0); }
@@ -166,9 +189,9 @@ std::string numbers(const glm::dvec3& v) {
   return exact(v.x) + " " + exact(v.y) + " " + exact(v.z);
 }
 
-void add(Rehearsal& rehearsal, const Body& body, const std::vector<Posture>& postures) {
+void add(Rehearsal& rehearsal, const Body& body, const ArmSwing& swing, const std::vector<Posture>& postures) {
   const std::uint32_t first = rehearsal.at();
-  rehearsal.add({keys_of(body, body.joints(), postures, first), first + std::uint32_t(postures.size()) - 1});
+  rehearsal.add({keys_of(body, swing.joints(), postures, first), first + std::uint32_t(postures.size()) - 1});
 }
 
 }  // namespace
@@ -221,10 +244,10 @@ Motion toss(const Scene& scene) {
   }
   scene.last_after(shape.back + shape.forward + shape.through + shape.rest);
   Rehearsal rehearsal(scene);
-  add(rehearsal, body, postures);
+  add(rehearsal, body, swing, postures);
   const std::uint32_t release = rehearsal.at();
   rehearsal.attach(holding.actor, release, {});
-  add(rehearsal, body, swing.after_release(shape, postures.back()));
+  add(rehearsal, body, swing, swing.after_release(shape, postures.back()));
 
   released = thrown(animator::state_at(rehearsal.film(), holding.actor, release).root.place);
   const auto three = [](const glm::dvec3& v) {

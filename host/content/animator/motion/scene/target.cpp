@@ -8,9 +8,12 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/motion/body/surface.h"
 
 namespace mars::motion {
 namespace {
+
+constexpr int kGridOfSkin = 4;  // points along each side of a patch
 
 glm::dvec3 corner(const wire::Matrix& matrix, int number) {
   const double p[] = {double(number & 1), double(number >> 1 & 1), double(number >> 2 & 1)};
@@ -18,6 +21,31 @@ glm::dvec3 corner(const wire::Matrix& matrix, int number) {
   for (std::size_t row = 0; row < 3; ++row)
     point[int(row)] = matrix.m[row][0] * p[0] + matrix.m[row][1] * p[1] + matrix.m[row][2] * p[2] + matrix.m[row][3];
   return point;
+}
+
+// Of the boxes of rigid segments the corners, and of skins as they are bent points all over them: of those that belong
+// to the target, a joint's own segment, or if it has none what of skins follows it most.
+std::vector<glm::dvec3> points_of(const animator::Film& film, const Target& target, const animator::ActorState& state) {
+  const modeler::Model& model = film.model_of(target.actor);
+  const bool is_all = target.joint == modeler::kNone;
+  std::vector<glm::dvec3> points;
+  bool has_skin = false;
+  for (std::size_t joint = 0; joint < state.segments.size(); ++joint) {
+    if (!state.segments[joint]) continue;
+    if (!state.bones[joint].empty() && !state.joints.empty())
+      has_skin = true;
+    else if (is_all || joint == target.joint)
+      for (int i = 0; i < 8; ++i) points.push_back(corner(*state.segments[joint], i));
+  }
+  if (!has_skin) return points;
+  const bool is_bone = !is_all && !model.joints[target.joint].segment;
+  for (const SurfacePoint& point : surface_of(
+                                       model, [&](std::size_t joint) { return state.joints[joint]; }, kGridOfSkin)
+                                       .points)
+    if (!model.joints[point.segment].segment->bones.empty() &&
+        (is_all || (is_bone ? point.joint : point.segment) == target.joint))
+      points.push_back(point.place);
+  return points;
 }
 
 Block block_around(const std::vector<glm::dvec3>& points, const glm::dmat3& axes) {
@@ -74,18 +102,13 @@ std::string name_of(const animator::Film& film, const Target& target) {
 glm::dvec3 place_of(const animator::Film& film, const Target& target, std::uint32_t frame) {
   const animator::ActorState state = animator::state_at(film, target.actor, frame);
   if (target.joint != modeler::kNone) return state.joints[target.joint].place;
-  std::vector<glm::dvec3> points;
-  for (const auto& segment : state.segments)
-    for (int i = 0; segment && i < 8; ++i) points.push_back(corner(*segment, i));
+  const std::vector<glm::dvec3> points = points_of(film, target, state);
   return points.empty() ? state.root.place : block_around(points, state.root.turn).middle;
 }
 
 Block block_of(const Scene& scene, const Target& target, std::uint32_t frame) {
   const animator::ActorState state = animator::state_at(scene.film, target.actor, frame);
-  std::vector<glm::dvec3> points;
-  for (std::size_t joint = 0; joint < state.segments.size(); ++joint)
-    if (state.segments[joint] && (target.joint == modeler::kNone || joint == target.joint))
-      for (int i = 0; i < 8; ++i) points.push_back(corner(*state.segments[joint], i));
+  const std::vector<glm::dvec3> points = points_of(scene.film, target, state);
   if (points.empty())
     throw Failure("'" + name_of(scene.film, target) + "' has no segment", scene.where(),
                   "name an actor or a joint that is to be seen");

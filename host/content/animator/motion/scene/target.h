@@ -20,7 +20,7 @@ std::size_t joint_named(const Scene& scene, const modeler::Model& model, std::st
 
 std::string name_of(const animator::Film& film, const Target& target);
 
-// Where it is at a frame: a joint's place, or the middle of an actor's box.
+// Where it is at a frame: a joint's place, or the middle of the box around an actor, whose skins are bent.
 glm::dvec3 place_of(const animator::Film& film, const Target& target, std::uint32_t frame);
 
 // A box in the world, along axes of its own.
@@ -33,7 +33,8 @@ struct Block {
   double bottom() const;
 };
 
-// Of a joint's own segment, or of all of an actor's, along the actor's axes. Throws where there is no segment.
+// Of a joint's own segment, if it has none of what of skins follows it most, or of all of an actor's, along the actor's
+// axes. Skins count as they are bent. Throws where there is no segment.
 Block block_of(const Scene& scene, const Target& target, std::uint32_t frame);
 
 }  // namespace mars::motion

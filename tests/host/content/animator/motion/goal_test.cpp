@@ -10,6 +10,9 @@
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/animator/motion/body/body.h"
 #include "host/content/animator/motion/body/hand.h"
+#include "host/content/animator/motion/body/surface.h"
+#include "host/content/animator/motion/scene/target.h"
+#include "host/content/animator/pose/attachments.h"
 #include "tests/host/content/animator/motion/bodies.h"
 #include "tests/host/content/document/failure_of.h"
 
@@ -38,9 +41,9 @@ document::Json box(const document::Json& sbb) {
 }
 
 // With a ball before and to the right of the figure, its middle so high.
-document::Json film_of(const Figure& figure, double ahead, double aside, double height) {
+document::Json film_of(const Figure& figure, double ahead, double aside, double height, double radius = kBall) {
   document::Json film = film_with(figure.model);
-  const double r = kBall * figure.size;
+  const double r = radius * figure.size;
   film["models"]["ball"] = {
       {"joints", document::Json::array({jointed("ball", "", {0, 0, 0}, {}, {{-r, -r, -r}, {r, r, r}}, "sphere")})}};
   const glm::dvec3 place = kStands + figure.size * (kFacing * glm::dvec3(ahead, aside, height));
@@ -122,6 +125,100 @@ TEST(Pick, TakesABallFromTheFloorAndFromATable) {
     }
 }
 
+constexpr const char* kDigits[] = {"thumb", "index", "middle", "ring", "little"};
+
+std::size_t joint_named(const modeler::Model& model, const std::string& name) {
+  for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
+    if (model.joints[joint].name == name) return joint;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+// How far the nearest point of what moves with a joint is from the ball's surface; below 0: inside.
+double gap_to_ball(const animator::Film& film, std::size_t joint, std::uint32_t frame, double radius) {
+  const modeler::Model& model = film.models[film.actors[0].model];
+  const glm::dvec3 ball = animator::state_at(film, 1, frame).root.place;
+  double least = 1e300;
+  for (const glm::dvec3& point : points_of(model, posture_at(model, film.actors[0].motion, frame),
+                                           [&](std::size_t each) { return each == joint; }))
+    least = std::min(least, glm::distance(point, ball) - radius);
+  return least;
+}
+
+TEST(Pick, ClosesFingersRoundTheThingAndPutOpensThem) {
+  for (const auto& [figure, ball] : {std::pair{figures()[0], 0.13}, std::pair{figures()[1], kBall}}) {
+    document::Json json = film_of(figure, 1.2, -0.3, 1.9, ball);
+    const Performed picked = act(json, "pick what ball hand right", 0);
+    const Performed put = act(json, "put to " + at(before(figure, {1.3, -0.3, 1.9})));
+    const animator::Film film = read(json);
+    const modeler::Model& model = film.models[film.actors[0].model];
+    const double radius = ball * figure.size, millimetre = kMillimetre * figure.size;
+    for (const std::string digit : kDigits) {
+      const std::string what = figure.name + " " + digit;
+      const std::size_t root = joint_named(model, "right-" + digit + "-1"),
+                        tip = joint_named(model, "right-" + digit + "-3");
+      double nearest = 1e300;
+      for (const std::size_t joint : {root, root + 1, tip})
+        nearest = std::min(nearest, gap_to_ball(film, joint, picked.last, radius));
+      EXPECT_GT(nearest, -1.5 * millimetre) << what;
+      EXPECT_LT(gap_to_ball(film, tip, picked.last, radius), 4 * millimetre) << what;
+      EXPECT_GT(gap_to_ball(film, tip, first_attached(film), radius), 8 * millimetre) << what;
+      for (const std::size_t joint : {root, root + 1, tip}) {
+        const auto pose = [&](std::uint32_t frame) {
+          return posture_at(model, film.actors[0].motion, frame).pose[joint];
+        };
+        EXPECT_EQ(pose(picked.last), pose(put.first)) << what;
+        EXPECT_LT(glm::length(pose(put.last)), 0.01) << what;
+      }
+    }
+    expect_limits(film, picked, figure.name);
+    expect_limits(film, put, figure.name);
+  }
+}
+
+// The model with other words in all names.
+document::Json renamed(const document::Json& model, const std::vector<std::pair<std::string, std::string>>& words) {
+  std::string text = model.dump();
+  for (const auto& [word, other] : words)
+    for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += other.size())
+      text.replace(at, word.size(), other);
+  return document::Json::parse(text);
+}
+
+TEST(Pick, KnowsFingersOfOtherProgramsByTheirNames) {
+  const auto bends = [](const document::Json& model) {
+    document::Json json = film_of({"man", model, 1}, 1.2, -0.3, 1.9, 0.13);
+    const Performed picked = act(json, "pick what ball hand right", 0);
+    const animator::Film film = read(json);
+    const modeler::Model& man = film.models[film.actors[0].model];
+    double most = 0;
+    for (std::size_t joint = 0; joint < man.joints.size(); ++joint)
+      if (modeler::is_at_or_below(man.joints, man.joints[joint].parent,
+                                  man.limbs.of(modeler::Limb::wrist, modeler::Side::right)))
+        most = std::max(most, glm::length(posture_at(man, film.actors[0].motion, picked.last).pose[joint]));
+    return std::pair{most, picked.last};
+  };
+  const auto own = bends(human());
+  EXPECT_GT(own.first, 20);
+  EXPECT_EQ(bends(renamed(human(), {{"right-thumb-", "mixamorig:RightHandThumb"},
+                                    {"right-index-", "mixamorig:RightHandIndex"},
+                                    {"right-middle-", "mixamorig:RightHandMiddle"},
+                                    {"right-ring-", "mixamorig:RightHandRing"},
+                                    {"right-little-", "mixamorig:RightHandPinky"}})),
+            own);
+  EXPECT_EQ(bends(renamed(human(), {{"right-thumb-", "Bip01 R Finger0"},
+                                    {"right-index-", "Bip01 R Finger1"},
+                                    {"right-middle-", "Bip01 R Finger2"},
+                                    {"right-ring-", "Bip01 R Finger3"},
+                                    {"right-little-", "Bip01 R Finger4"}})),
+            own);
+  // Where names say nothing, fingers stay, and the hand does not wait for them.
+  const auto none =
+      bends(renamed(human(), {{"thumb", "a"}, {"index", "b"}, {"middle", "c"}, {"-ring", "d"}, {"little", "e"}}));
+  EXPECT_EQ(none.first, 0);
+  EXPECT_LT(none.second, own.second);
+}
+
 TEST(Pick, SaysWhereToWalkToWhatIsTooFarAway) {
   document::Json json = film_of(figures()[0], 6, 0, 0.3);
   const std::string failure = document::failure_of([&] { act(json, "pick what ball", 0); });
@@ -187,6 +284,41 @@ TEST(Put, PutsWhatItHoldsDownAtAPlace) {
     expect_limits(film, done, figure.name);
     expect_feet(film, done, 2 * kMillimetre * figure.size, figure.name);
   }
+}
+
+// A board that stands on an edge at rest, 2 high, and lies 1 over the floor when its skin's joint turns.
+document::Json board() {
+  const document::Json bones = document::Json::array({{0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}, {0, 1}});
+  return document::Json::parse(R"({"shapes": {"board": {"mesh": {
+      "vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1], [1, 1, 1]],
+      "faces": [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]], "bones": )" +
+                               bones.dump() + R"(}}},
+    "joints": [{"name": "wall", "segment": {"shape": "board", "sbb": [[-0.1, -1, 0.9], [0.1, 1, 2.9]],
+                "skin": {"joints": ["hinge"]}}},
+               {"name": "hinge", "parent": "wall", "place": [0, 0, 1]}]})");
+}
+
+TEST(Seats, AreWhereSkinsAreBent) {
+  document::Json json = film_with(human());
+  json["models"]["board"] = board();
+  json["actors"].push_back(
+      {{"name", "bed"}, {"model", "board"}, {"place", {5, 2, 0}}, {"pose", {{"hinge", {0, 90, 0}}}}});
+  const animator::Film film = read(json);
+  const Arguments none({}, "test");
+  const Scene scene{film, film.actors[0], 0, none, "sit"};
+  for (const Target& target : {Target{1}, Target{1, 0}, Target{1, 1}}) {
+    const Block block = block_of(scene, target, 0);
+    EXPECT_NEAR(block.top(), 1.1, 1e-6);
+    EXPECT_NEAR(block.bottom(), 0.9, 1e-6);
+    EXPECT_NEAR(block.middle.x, 5.9, 1e-6);
+  }
+  EXPECT_NEAR(place_of(film, {1}, 0).x, 5.9, 1e-6);
+  act(json, "sit on bed", 0);
+  const animator::Film sat = read(json);
+  const std::size_t pelvis = sat.models[0].limbs.of(modeler::Trunk::pelvis);
+  const std::uint32_t last = animator::last_key(sat.actors[0]);
+  EXPECT_LT(animator::JointFrames(sat).frame_of(0, pelvis, last).place.z, 2);
+  EXPECT_GT(animator::JointFrames(sat).frame_of(0, pelvis, last).place.z, 1.1);
 }
 
 TEST(Toss, HitsItsPlaceAndBounces) {
