@@ -53,6 +53,8 @@ struct Leg {
   double length() const { return thigh + shin; }
 };
 
+inline constexpr double kSlimHang = 8;  // degrees from straight down of a slim body's arms
+
 struct Body {
   const modeler::Model* model;
   std::string name;    // of the actor, for messages
@@ -61,16 +63,20 @@ struct Body {
   std::array<Leg, 2> legs;
   std::optional<std::array<Leg, 2>> forelegs{};  // where shoulders carry legs, too
   double height = 0;                             // of the pelvis over the floor as drawn, where it stands
+  std::array<double, 2> hang{kSlimHang, kSlimHang};      // degrees from straight down to its own side that an arm hangs
 
   const Leg& leg(modeler::Side side) const { return legs[index_of(side)]; }
+  double hang_of(modeler::Side side) const { return hang[index_of(side)]; }
   double leg_length() const { return legs[0].length(); }
   bool planar() const;  // legs swing forward and back alone
   bool stiff() const { return legs[0].knee == modeler::kNone; }
 
   std::size_t find(modeler::Trunk part) const { return model->limbs.of(part); }
   std::size_t find(modeler::Limb limb, modeler::Side side) const { return model->limbs.of(limb, side); }
-  // All joints that are limbs, in the model's order.
+  // All joints that are limbs or lie between limbs, in the model's order.
   std::vector<std::size_t> joints() const;
+  // What lies between pelvis and head, or pelvis and shoulder, and is no limb: further joints of a back, collarbones.
+  std::vector<std::size_t> between() const;
   const std::string& joint_name(std::size_t joint) const { return model->joints[joint].name; }
 
   double heading_of(const Posture& posture) const;  // degrees from x to y

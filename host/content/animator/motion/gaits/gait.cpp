@@ -105,6 +105,7 @@ class Walker {
                                                           swing * (carriage_.lean + wave(0.05, 2)) + 0.4 * lean,
                                                           -carriage_.twist * loose * swing * wave(0));
     add_trunk(stance, p, swing, lean);
+    straighten_between(body_, stance);
     for (const modeler::Side side : kSides) add_arm(stance, side, p, swing);
     return stance;
   }
@@ -161,7 +162,7 @@ class Walker {
     if (const std::size_t joint = body_.find(modeler::Limb::shoulder, side); joint != modeler::kNone)
       stance.turns[joint] =
           hanging_shoulder(body_, side,
-                           {s * (8 + 1.5 * much * wave(0.5)),
+                           {s * (body_.hang_of(side) + 1.5 * much * wave(0.5)),
                             carriage_.shoulder.mean * swing + carriage_.shoulder.by * much * wave(0.02), s * -12});
     if (const std::size_t joint = body_.find(modeler::Limb::elbow, side); joint != modeler::kNone)
       stance.turns[joint] = hanging_elbow(
@@ -195,12 +196,13 @@ std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
   for (const modeler::Trunk part :
        {modeler::Trunk::spine, modeler::Trunk::chest, modeler::Trunk::neck, modeler::Trunk::head})
     if (const std::size_t joint = body.find(part); joint != modeler::kNone) turns[joint] = glm::dmat3(1);
+  for (const std::size_t joint : body.between()) turns[joint] = glm::dmat3(1);
   for (const modeler::Side side : kSides) {
     const double s = sign_of(side);
     const auto add = [&](modeler::Limb limb, const glm::dmat3& turn) {
       if (const std::size_t joint = body.find(limb, side); joint != modeler::kNone) turns[joint] = turn;
     };
-    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * 8, 0, s * -12}));
+    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * body.hang_of(side), 0, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body, side, {0, -14, s * -14}));
     add(modeler::Limb::wrist, hanging_wrist(body, side, {s * -6, 4, 0}));
   }

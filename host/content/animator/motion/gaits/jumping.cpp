@@ -207,6 +207,7 @@ class Jumper {
     const double lean = kLean * (crouched + 0.8 * sunk);
     stance.tilt = (1 - smooth(0, f.gather, time)) * from_.tilt + glm::dvec3(0, 0.6 * lean, 0);
     add_trunk(stance, lean);
+    straighten_between(body_, stance);
     for (const modeler::Side side : kSides) {
       add_arm(stance, side, time);
       stance.feet[index_of(side)] = foot_at(side, time);
@@ -237,7 +238,7 @@ class Jumper {
     const auto add = [&](modeler::Limb limb, const glm::dmat3& turn) {
       if (const std::size_t joint = body_.find(limb, side); joint != modeler::kNone) stance.turns[joint] = turn;
     };
-    add(modeler::Limb::shoulder, hanging_shoulder(body_, side, {s * 9, swing, s * -12}));
+    add(modeler::Limb::shoulder, hanging_shoulder(body_, side, {s * (body_.hang_of(side) + 1), swing, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body_, side, {0, -14 - bend, s * -14}));
     add(modeler::Limb::wrist, hanging_wrist(body_, side, {s * -6, 4, 0}));
   }
