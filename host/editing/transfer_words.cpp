@@ -75,7 +75,7 @@ std::string report_of(const motion::Transferred& done, const animator::Film& fro
   if (!done.limited.empty())
     text += "kept back by their limits: " + document::counted(done.limited.size(), "joint") + ", by up to " +
             rounded_text(done.most_missed) + " degrees: " + some_of(done.limited) +
-            " (widen them: mars model MODEL limits)\n";
+            " (to widen them: mars model MODEL set JOINT --limits y LOWER UPPER)\n";
   return text;
 }
 

@@ -13,7 +13,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kArm = 54;  // from shoulder to wrist
+constexpr double kArmLength = 54;  // from shoulder to wrist
 
 std::size_t joint_of(const modeler::Model& model, const std::string& name) {
   std::size_t joint = 0;
@@ -76,9 +76,9 @@ TEST(Strangers, ArmsThatAreDrawnHeldOutHangFromTheBeginning) {
     const Performed done = act(json, action, 10);
     const animator::Film film = read(json);
     for (const std::uint32_t frame : {0u, done.first, done.last}) {
-      EXPECT_GT(hangs(film, "left", frame), 0.9 * kArm) << action << " " << frame;
+      EXPECT_GT(hangs(film, "left", frame), 0.9 * kArmLength) << action << " " << frame;
       if (action != std::string("pick what ball") || frame < done.last)
-        EXPECT_GT(hangs(film, "right", frame), 0.9 * kArm) << action << " " << frame;
+        EXPECT_GT(hangs(film, "right", frame), 0.9 * kArmLength) << action << " " << frame;
     }
   }
 }
@@ -87,7 +87,7 @@ TEST(Strangers, TheArmThatDoesNotWaveHangs) {
   document::Json json = film_with(stranger());
   const Performed done = act(json, "wave hand left", 0);
   const animator::Film film = read(json);
-  for (std::uint32_t frame = 0; frame <= done.last; ++frame) EXPECT_GT(hangs(film, "right", frame), 0.9 * kArm);
+  for (std::uint32_t frame = 0; frame <= done.last; ++frame) EXPECT_GT(hangs(film, "right", frame), 0.9 * kArmLength);
 }
 
 TEST(Strangers, ArmsWithKeysStayAsTheyAre) {
