@@ -104,8 +104,7 @@ void transfer(EditedFilm& film, const TransferWords& words) {
     animator::actor_of(json, words.actor);  // refuses what is no actor
     const auto actor = std::ranges::find(meaning.actors, words.actor, &animator::Actor::name);
     const std::uint32_t at = words.at.value_or(animator::last_key(actor->motion));
-    const auto done =
-        motion::transfer_motion(source, meaning, std::size_t(actor - meaning.actors.begin()), at);
+    const auto done = motion::transfer_motion(source, meaning, std::size_t(actor - meaning.actors.begin()), at);
     put_motion(json, words.actor, done);
     report = report_of(done, other.film, meaning) + reduced(json, meaning, words, done);
     const std::string length = fit_length(json, done.last, words.lengthen);
@@ -137,11 +136,13 @@ void add_transfer(cli::Command animate, EditedFilm& film) {
   command.add("-f,--frame", words->frame, "Only these frames of that film. Example: --frame 24-48").type("RANGE");
   const auto read_at = [words](const std::string& word) { words->at = animator::read_frame(word); };
   command
-      .add_read("--at", read_at, "The frame at which the motion begins; default: the actor's last key. Example: --at 24")
+      .add_read("--at", read_at,
+                "The frame at which the motion begins; default: the actor's last key. Example: --at 24")
       .type("FRAME");
-  command.add("--error", words->error,
-              "How far splines through few keys may deviate; 0: a key at every frame; default: 0.2. "
-              "Example: --error 0.5")
+  command
+      .add("--error", words->error,
+           "How far splines through few keys may deviate; 0: a key at every frame; default: 0.2. "
+           "Example: --error 0.5")
       .type("DEGREES")
       .range(0.0, 90.0);
   command.add_flag("--lengthen", words->lengthen, "Make the film long enough for the motion. Example: --lengthen");

@@ -8,7 +8,8 @@ namespace mars::motion {
 // Whether the model draws this upper arm far from hanging, as the T- and A-poses of other programs' figures do.
 bool is_drawn_out(const Body& body, modeler::Side side);
 
-// Degrees of the upper arm from straight down, to its own side, with which it hangs clear of the body: kSlimHang at least.
+// Degrees of the upper arm from straight down, to its own side, with which it hangs clear of the body: kSlimHang at
+// least.
 double hang_beside(const Body& body, modeler::Side side);
 
 }  // namespace mars::motion

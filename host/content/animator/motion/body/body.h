@@ -61,9 +61,9 @@ struct Body {
   glm::dmat3 axes;     // forward, left, up in the model's own frame
   std::size_t pelvis;  // named, or the joint that carries the hips
   std::array<Leg, 2> legs;
-  std::optional<std::array<Leg, 2>> forelegs{};  // where shoulders carry legs, too
-  double height = 0;                             // of the pelvis over the floor as drawn, where it stands
-  std::array<double, 2> hang{kSlimHang, kSlimHang};      // degrees from straight down to its own side that an arm hangs
+  std::optional<std::array<Leg, 2>> forelegs{};      // where shoulders carry legs, too
+  double height = 0;                                 // of the pelvis over the floor as drawn, where it stands
+  std::array<double, 2> hang{kSlimHang, kSlimHang};  // degrees from straight down to its own side that an arm hangs
 
   const Leg& leg(modeler::Side side) const { return legs[index_of(side)]; }
   double hang_of(modeler::Side side) const { return hang[index_of(side)]; }

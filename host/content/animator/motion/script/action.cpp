@@ -175,9 +175,7 @@ bool is_about_hands(const Action& action) {
   });
 }
 
-bool holds_nothing(const animator::ActorKey& key) {
-  return !key.place && !key.turn && !key.attach && key.pose.empty();
-}
+bool holds_nothing(const animator::ActorKey& key) { return !key.place && !key.turn && !key.attach && key.pose.empty(); }
 
 // The arm of a hand that holds something stays as it is: it neither swings nor rests.
 void keep_holding(const Scene& scene, Motion& motion) {

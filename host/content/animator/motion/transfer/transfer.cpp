@@ -138,8 +138,8 @@ class Transfer {
   void correct_rests() {
     correction_.assign(to_.model().joints.size(), glm::dmat3(1));
     for (const modeler::Side side : kSides) {
-      for (const modeler::Limb limb : {modeler::Limb::hip, modeler::Limb::knee, modeler::Limb::shoulder,
-                                       modeler::Limb::elbow}) {
+      for (const modeler::Limb limb :
+           {modeler::Limb::hip, modeler::Limb::knee, modeler::Limb::shoulder, modeler::Limb::elbow}) {
         const auto from = direction_of(from_.body(), limb, side), to = direction_of(to_.body(), limb, side);
         if (from && to) correction_[to_.body().find(limb, side)] = turn_to(*to, *from);
       }
@@ -214,8 +214,8 @@ class Transfer {
     const glm::dmat3 same = glm::transpose(to_.body().axes);
     posture.turn = turn_near(align_ * actor_turn(from) * from_.body().axes * same, posture.turn);
     for (const Match& match : matching_.joints) {
-      const glm::dmat3 turn = align_ * frame_in(from_.model(), from, match.from).turn * from_.body().axes *
-                              correction_[match.to] * same;
+      const glm::dmat3 turn =
+          align_ * frame_in(from_.model(), from, match.from).turn * from_.body().axes * correction_[match.to] * same;
       turn_joint(match.to, turn, posture);
     }
     const glm::dvec3 way = frame_in(from_.model(), from, from_.root()).place - from_place_;
@@ -240,7 +240,9 @@ class Transfer {
   }
 
   animator::ActorKey key_of(const Posture& posture, std::uint32_t frame) const {
-    const auto rounded = [](const glm::dvec3& value) { return animator::rounded(glm::round(value / kDigits) * kDigits); };
+    const auto rounded = [](const glm::dvec3& value) {
+      return animator::rounded(glm::round(value / kDigits) * kDigits);
+    };
     animator::ActorKey key;
     key.frame = frame;
     key.ease = animator::kLinear;
@@ -248,8 +250,7 @@ class Transfer {
     key.turn = rounded(posture.turn);
     for (const Match& match : matching_.joints) {
       const modeler::Joint& joint = to_.model().joints[match.to];
-      if (joint.freedoms() > 0)
-        key.pose[joint.name] = animator::clamped(joint, rounded(posture.pose[match.to]));
+      if (joint.freedoms() > 0) key.pose[joint.name] = animator::clamped(joint, rounded(posture.pose[match.to]));
     }
     return key;
   }

@@ -1,5 +1,5 @@
-// Figures of other programs in MARS's motions: arms hang that are drawn held out, and joints that are no limbs come back
-// from where an action takes them.
+// Figures of other programs in MARS's motions: arms hang that are drawn held out, and joints that are no limbs come
+// back from where an action takes them.
 #include "tests/host/content/animator/motion/strangers.h"
 
 #include <gtest/gtest.h>

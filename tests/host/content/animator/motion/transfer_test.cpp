@@ -41,9 +41,7 @@ Transferred put(const document::Json& from, document::Json& to, std::uint32_t at
   return done;
 }
 
-double angle(const glm::dmat3& a, const glm::dmat3& b) {
-  return glm::degrees(animator::turn_between(a, b).angle);
-}
+double angle(const glm::dmat3& a, const glm::dmat3& b) { return glm::degrees(animator::turn_between(a, b).angle); }
 
 glm::dvec3 direction(const animator::Film& film, const Bone& bone, modeler::Side side, std::uint32_t frame) {
   animator::JointFrames frames(film);
