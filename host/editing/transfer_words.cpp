@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "hal/failure/failure.h"
@@ -55,17 +56,26 @@ motion::MotionSource source_of(const animator::Film& film, const TransferWords& 
   return {film, actor, range};
 }
 
-std::string some_of(const std::vector<std::string>& names) {
-  std::vector<std::string_view> shown(names.begin(), names.begin() + std::ptrdiff_t(std::min(kNamed, names.size())));
-  return document::joined(shown) + (names.size() > kNamed ? ", ..." : "");
+std::string rounded_text(double value, int digits) { return document::shown(document::rounded_to(value, digits)); }
+
+// The first of a list.
+std::string some_of(std::vector<std::string> names) {
+  const bool more = names.size() > kNamed;
+  names.resize(std::min(kNamed, names.size()));
+  return document::joined(names) + (more ? ", ..." : "");
 }
 
-std::string rounded_text(double value) { return document::shown(document::rounded_to(value, 3)); }
+std::vector<std::string> names_of(const std::vector<motion::Limited>& limited) {
+  std::vector<std::string> names;
+  for (const motion::Limited& each : limited)
+    names.push_back(each.joint + " " + rounded_text(std::ceil(each.degrees), 3));
+  return names;
+}
 
 std::string report_of(const motion::Transferred& done, const animator::Film& from, const animator::Film& to) {
   std::string text = "frames " + std::to_string(done.first) + " to " + std::to_string(done.last) + ": " +
                      document::counted(done.by_limb, "joint") + " by limb, " + std::to_string(done.by_name) +
-                     " by name; ways times " + rounded_text(done.scale);
+                     " by name; ways times " + rounded_text(done.scale, 3);
   if (from.rate != to.rate)
     text += "; " + document::shown(from.rate) + " frames a second became " + document::shown(to.rate);
   text += "\n";
@@ -73,9 +83,8 @@ std::string report_of(const motion::Transferred& done, const animator::Film& fro
     text += "not carried, for no joint stands for them: " + document::counted(done.left_out.size(), "joint") + ", " +
             some_of(done.left_out) + "\n";
   if (!done.limited.empty())
-    text += "kept back by their limits: " + document::counted(done.limited.size(), "joint") + ", by up to " +
-            rounded_text(done.most_missed) + " degrees: " + some_of(done.limited) +
-            " (to widen them: mars model MODEL set JOINT --limits y LOWER UPPER)\n";
+    text += "kept back by their limits: " + document::counted(done.limited.size(), "joint") + ", by up to (degrees) " +
+            some_of(names_of(done.limited)) + ": to widen them, mars model MODEL set JOINT --limits y LOWER UPPER\n";
   return text;
 }
 

@@ -24,6 +24,7 @@ class OtherFilm : public testing::Test {
     edit(other, {"film", "add", "tom", "--model", "man"});
     edit(other, {"animate", "walk", "tom", "--steps", "2", "--lengthen"});
     edit(other, {"film", "add", "ball", "--model", "ball"});
+    other["actors"][1].erase("place");
     for (int frame = 0; frame <= 30; ++frame)
       other["actors"][1]["keys"].push_back({{"frame", frame}, {"place", {frame / 30.0, 0, 0}}});
     film::create_film(folder_ / "walk.json", other);

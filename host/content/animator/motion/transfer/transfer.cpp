@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/body/body.h"
@@ -21,9 +24,10 @@ namespace mars::motion {
 namespace {
 
 constexpr double kMissed = 0.05;    // degrees that a joint may be off before it counts as limited
-constexpr double kOnFloor = 0.1;    // of the hips' height: a figure so near the floor of the world stands on it
+constexpr double kOnFloor = 0.015;  // of the hips' height: a figure so near the floor of the world stands on it
 constexpr double kDigits = 1e-4;    // degrees, of keys
 constexpr double kMoves = 0.01;     // degrees: what turns less stands still
+constexpr int kTries = 16;          // halvings of a roll
 constexpr double kParallel = 1e-9;  // of directions
 
 using modeler::kNone;
@@ -58,11 +62,19 @@ class Performer {
   // The joint that carries the rest of it along.
   std::size_t root() const { return body_.pelvis == kNone ? 0 : body_.pelvis; }
 
+  double near_world(double floor) const { return std::abs(floor) < kOnFloor * body_.height ? 0 : floor; }
+
+  // On which it stands at some time.
+  double floor_under(std::span<const Posture> postures) const {
+    if (body_.height <= 0) return 0;
+    double least = 1e300;
+    for (const Posture& posture : postures) least = std::min(least, body_.floor_under(posture));
+    return near_world(least);
+  }
+
   // Of a posture that stands; the world's, where that is near.
   double floor_under(const Posture& posture) const {
-    if (body_.height <= 0) return 0;
-    const double floor = body_.floor_under(posture);
-    return std::abs(floor) < kOnFloor * body_.height ? 0 : floor;
+    return body_.height <= 0 ? 0 : near_world(body_.floor_under(posture));
   }
 
  private:
@@ -113,11 +125,15 @@ class Transfer {
     if (at_ + frames >= wire::kMostFrames)
       throw Failure("would end at frame " + std::to_string(std::uint64_t(at_ + frames)), "the motion",
                     "begin earlier: a film has at most " + std::to_string(wire::kMostFrames) + " frames");
-    anchor();
+    std::vector<Posture> postures;
+    for (std::uint32_t frame = 0; frame <= std::uint32_t(frames); ++frame)
+      postures.push_back(sampled(source_.frames.first + frame * step));
+    anchor(postures);
+    if (!pelvis_can_follow(postures)) turn_by_actor(postures.front());
     Posture posture = start_;
     Transferred done;
     for (std::uint32_t frame = 0; frame <= std::uint32_t(frames); ++frame) {
-      take(sampled(source_.frames.first + frame * step), posture);
+      take(postures[frame], posture);
       done.keys.push_back(key_of(posture, at_ + frame));
     }
     done.first = at_;
@@ -126,10 +142,8 @@ class Transfer {
     done.by_name = matching_.by_name;
     done.scale = scale_;
     done.left_out = left_out();
-    for (const auto& [joint, missed] : missed_) {
-      done.limited.push_back(to_.model().joints[joint].name);
-      done.most_missed = std::max(done.most_missed, missed);
-    }
+    for (const auto& [joint, missed] : missed_) done.limited.push_back({to_.model().joints[joint].name, missed});
+    std::ranges::stable_sort(done.limited, std::greater(), &Limited::degrees);
     return done;
   }
 
@@ -171,12 +185,12 @@ class Transfer {
   }
 
   // Where both begin, and how the one is turned against the other.
-  void anchor() {
-    const Posture begin = from_.at(source_.frames.first);
+  void anchor(std::span<const Posture> postures) {
+    const Posture& begin = postures.front();
     align_ = canonical_turn(0, 0, to_.body().heading_of(start_) - from_.body().heading_of(begin));
     from_place_ = frame_in(from_.model(), begin, from_.root()).place;
     to_place_ = frame_in(to_.model(), start_, to_.root()).place;
-    from_place_.z = from_.floor_under(begin);
+    from_place_.z = from_.floor_under(postures);
     to_place_.z = to_.floor_under(start_);
     if (from_.body().height > 0 && to_.body().height > 0) return;
     from_place_.z = frame_in(from_.model(), begin, from_.root()).place.z;
@@ -210,12 +224,42 @@ class Transfer {
       if (glm::distance(posture.pose[joint], first_pose_[joint]) > kMoves) moves_[joint] = true;
   }
 
+  // The target's orientation in the world for one of the source's.
+  glm::dmat3 carried(const glm::dmat3& turn) const {
+    return align_ * turn * from_.body().axes * glm::transpose(to_.body().axes);
+  }
+
+  // Where only the joints of a source's figure turn it about, as in captured motion, limits of the target's pelvis may
+  // be in the way.
+  bool pelvis_can_follow(const std::vector<Posture>& postures) const {
+    const std::size_t from = from_.body().pelvis, to = to_.body().pelvis;
+    if (from == kNone || to == kNone || matching_.from_of(to) != from) return true;
+    const modeler::Joint& joint = to_.model().joints[to];
+    return std::ranges::all_of(postures, [&](const Posture& posture) {
+      const glm::dmat3 whole = carried(actor_turn(posture)),
+                       turn = carried(frame_in(from_.model(), posture, from).turn);
+      const glm::dvec3 pose = animator::pose_of(joint, glm::transpose(whole) * turn, joint.rest());
+      return animator::largest_excess(joint, pose) <= kMissed;
+    });
+  }
+
+  void turn_by_actor(const Posture& begin) {
+    turns_whole_ = true;
+    const glm::dvec3 ahead = from_.body().turn_of(begin, from_.body().pelvis)[0];
+    align_ = canonical_turn(0, 0, to_.body().heading_of(start_) - glm::degrees(std::atan2(ahead.y, ahead.x)));
+  }
+
   void take(const Posture& from, Posture& posture) {
-    const glm::dmat3 same = glm::transpose(to_.body().axes);
-    posture.turn = turn_near(align_ * actor_turn(from) * from_.body().axes * same, posture.turn);
+    const glm::dmat3 whole = turns_whole_ ? frame_in(from_.model(), from, from_.body().pelvis).turn : actor_turn(from);
+    posture.turn = turn_near(carried(whole), posture.turn);
     for (const Match& match : matching_.joints) {
-      const glm::dmat3 turn =
-          align_ * frame_in(from_.model(), from, match.from).turn * from_.body().axes * correction_[match.to] * same;
+      if (turns_whole_ && modeler::is_at_or_below(to_.model().joints, to_.body().pelvis, match.to)) {
+        posture.pose[match.to] = to_.model().joints[match.to].rest();
+        continue;
+      }
+      const glm::dmat3 turn = carried(frame_in(from_.model(), from, match.from).turn) * to_.body().axes *
+                              correction_[match.to] * glm::transpose(to_.body().axes);
+      roll_forearm(match.to, turn, posture);
       turn_joint(match.to, turn, posture);
     }
     const glm::dvec3 way = frame_in(from_.model(), from, from_.root()).place - from_place_;
@@ -224,6 +268,45 @@ class Transfer {
 
   static glm::dvec3 turn_near(const glm::dmat3& turn, const glm::dvec3& near) {
     return animator::pose_of(animator::free_joint(), turn, near);
+  }
+
+  // Hands of many figures bend alone: what else turns them the forearm does about its own length.
+  void roll_forearm(std::size_t wrist, const glm::dmat3& hand, Posture& posture) const {
+    const std::vector<modeler::Joint>& joints = to_.model().joints;
+    for (const modeler::Side side : kSides) {
+      const std::size_t elbow = to_.body().find(modeler::Limb::elbow, side);
+      if (elbow == kNone || to_.body().find(modeler::Limb::wrist, side) != wrist || joints[wrist].parent != elbow)
+        continue;
+      const glm::dvec3 along = glm::normalize(joints[wrist].place);
+      if (can_twist(joints[wrist], along)) return;
+      const glm::dmat3 forearm = frame_in(to_.model(), posture, elbow).turn;
+      const animator::Turn left = animator::turn_between(glm::dmat3(1), glm::transpose(forearm) * hand);
+      const double roll =
+          2 * std::atan2(glm::dot(left.axis, along) * std::sin(left.angle / 2), std::cos(left.angle / 2));
+      roll_within(joints[elbow], along, roll, posture.pose[elbow]);
+    }
+  }
+
+  static bool can_twist(const modeler::Joint& joint, const glm::dvec3& along) {
+    const glm::dvec3 axes[] = {joint.x_axis, joint.y_axis, glm::cross(joint.x_axis, joint.y_axis)};
+    int nearest = 0;
+    for (int axis = 1; axis < 3; ++axis)
+      if (std::abs(glm::dot(axes[axis], along)) > std::abs(glm::dot(axes[nearest], along))) nearest = axis;
+    return joint.limits[nearest].free();
+  }
+
+  // As much of the roll as the limits allow.
+  static void roll_within(const modeler::Joint& joint, const glm::dvec3& along, double roll, glm::dvec3& pose) {
+    const glm::dmat3 turn = modeler::orientation(joint, pose);
+    double good = 0, bad = 1;
+    for (int tries = 0; tries < kTries; ++tries) {
+      const double share = tries == 0 ? 1 : (good + bad) / 2;
+      const glm::dvec3 rolled = animator::pose_of(joint, turn * modeler::rotation(along, share * roll), pose);
+      const bool fits = animator::largest_excess(joint, rolled) <= animator::kAngleRounding;
+      (fits ? good : bad) = share;
+      if (fits) pose = animator::clamped(joint, rolled);
+      if (good == 1) return;
+    }
   }
 
   // To the orientation in the world, as nearly as its limits allow.
@@ -270,6 +353,7 @@ class Transfer {
   double scale_ = 1;
   std::vector<glm::dmat3> correction_;  // of the target's joints, canonical
   glm::dmat3 align_{1};
+  bool turns_whole_ = false;                            // by the actor's turn what the pelvis of the source turns
   glm::dvec3 from_place_{0, 0, 0}, to_place_{0, 0, 0};  // on the floor below the roots
   std::map<std::size_t, double> missed_;                // of the target's joints, degrees
   mutable std::vector<glm::dvec3> first_pose_;          // of the source's joints

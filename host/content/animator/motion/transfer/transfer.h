@@ -19,13 +19,18 @@ struct MotionSource {
   animator::FrameRange frames;
 };
 
+// A joint that its limits keep from following.
+struct Limited {
+  std::string joint;
+  double degrees;  // that it falls short at most
+};
+
 struct Transferred {
   std::vector<animator::ActorKey> keys;  // one each frame
   std::uint32_t first = 0, last = 0;
   std::size_t by_limb = 0, by_name = 0;  // joints that take their turns from the source
   std::vector<std::string> left_out;     // joints of the source that move and have none that stands for them
-  std::vector<std::string> limited;      // joints of the target that its limits keep from following
-  double most_missed = 0;                // degrees that such a joint falls short
+  std::vector<Limited> limited;          // joints of the target, those that fall short most first
   double scale = 1;                      // of ways, by the heights of the hips
 };
 

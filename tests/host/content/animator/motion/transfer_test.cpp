@@ -75,13 +75,13 @@ TEST(Transfer, LimbsOfAnotherFigurePointTheSameWay) {
     const Transferred done = put(from, to);
     EXPECT_GT(done.by_limb, 14u);
     const animator::Film before = read(from), after = read(to);
-    EXPECT_LT(done.most_missed, 30);
+    for (const Limited& limited : done.limited) EXPECT_LT(limited.degrees, 30) << limited.joint;
     for (std::uint32_t frame = 0; frame <= done.last; frame += 5)
       for (const modeler::Side side : kSides)
         for (const Bone& bone : kBones) {
           const double cosine = glm::dot(direction(before, bone, side, frame), direction(after, bone, side, frame));
           const auto& name = after.models[0].joints[after.models[0].limbs.of(bone.from, side)].name;
-          const bool limited = std::ranges::find(done.limited, name) != done.limited.end();
+          const bool limited = std::ranges::find(done.limited, name, &Limited::joint) != done.limited.end();
           EXPECT_GT(cosine, std::cos(glm::radians(limited ? 25.0 : 1.0))) << to_stranger << " " << frame << " " << name;
         }
   }
