@@ -31,7 +31,9 @@ std::optional<animator::ActorKey> hanging_arms(const Scene& scene) {
     const std::vector<std::size_t> arm = arm_of(body, side);
     if (!is_drawn_out(body, side) || keyed(scene.actor.motion, arm)) continue;
     const auto ease = at_ease(body);
-    if (!key) key = animator::ActorKey{.frame = scene.at, .ease = animator::kLinear};
+    if (!key) key.emplace();
+    key->frame = scene.at;
+    key->ease = animator::kLinear;
     for (const std::size_t joint : arm) {
       const modeler::Joint& turned = scene.model().joints[joint];
       key->pose[turned.name] = two_digits(turned, numbers_for(body, joint, ease.at(joint), turned.rest()));
