@@ -279,8 +279,9 @@ class Transfer {
         continue;
       const glm::dvec3 along = glm::normalize(joints[wrist].place);
       if (can_twist(joints[wrist], along)) return;
-      const glm::dmat3 forearm = frame_in(to_.model(), posture, elbow).turn;
-      const animator::Turn left = animator::turn_between(glm::dmat3(1), glm::transpose(forearm) * hand);
+      const glm::dmat3 wanted = glm::transpose(frame_in(to_.model(), posture, elbow).turn) * hand;
+      const glm::dmat3 is = modeler::orientation(joints[wrist], within(joints[wrist], wanted, posture.pose[wrist]));
+      const animator::Turn left = animator::turn_between(is, wanted);
       const double roll =
           2 * std::atan2(glm::dot(left.axis, along) * std::sin(left.angle / 2), std::cos(left.angle / 2));
       roll_within(joints[elbow], along, roll, posture.pose[elbow]);
@@ -309,14 +310,18 @@ class Transfer {
     }
   }
 
+  // The numbers of the turn, or what is nearest within the limits.
+  static glm::dvec3 within(const modeler::Joint& joint, const glm::dmat3& turn, const glm::dvec3& near) {
+    const glm::dvec3 pose = animator::pose_of(joint, turn, near);
+    const bool fits = animator::largest_excess(joint, pose) <= animator::kAngleRounding;
+    return animator::clamped(joint, fits ? pose : nearest_turns(joint, turn, near));
+  }
+
   // To the orientation in the world, as nearly as its limits allow.
   void turn_joint(std::size_t number, const glm::dmat3& turn, Posture& posture) {
     const modeler::Joint& joint = to_.model().joints[number];
     const glm::dmat3 wanted = glm::transpose(socket_in(to_.model(), posture, number).turn) * turn;
-    glm::dvec3 pose = animator::pose_of(joint, wanted, posture.pose[number]);
-    if (animator::largest_excess(joint, pose) > animator::kAngleRounding)
-      pose = nearest_turns(joint, wanted, posture.pose[number]);
-    posture.pose[number] = animator::clamped(joint, pose);
+    posture.pose[number] = within(joint, wanted, posture.pose[number]);
     const double off = animator::turn_between(modeler::orientation(joint, posture.pose[number]), wanted).angle;
     if (const double missed = off * 180 / std::numbers::pi; missed > kMissed)
       missed_[number] = std::max(missed_[number], missed);
