@@ -5,6 +5,8 @@
 
 namespace mars::motion {
 
+inline constexpr double kSlimHang = 8;  // degrees from straight down of a slim body's arms
+
 // Whether the model draws this upper arm far from hanging, as the T- and A-poses of other programs' figures do.
 bool is_drawn_out(const Body& body, modeler::Side side);
 

@@ -8,7 +8,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "hal/failure/failure.h"
-#include "host/content/animator/motion/body/arms.h"
 #include "host/content/animator/motion/body/surface.h"
 
 namespace mars::motion {
@@ -282,8 +281,6 @@ Body body_of(const modeler::Model& model, const std::string& actor, const std::s
   }
   const double drawn_ankle = (back * (pelvis - frame_in(model, drawn, body.legs[0].ankle).place)).z;
   body.height = drawn_ankle + body.legs[0].sole.height(0, 0);
-  if (!body.forelegs)
-    for (const modeler::Side side : kSides) body.hang[index_of(side)] = hang_beside(body, side);
   return body;
 }
 

@@ -53,20 +53,16 @@ struct Leg {
   double length() const { return thigh + shin; }
 };
 
-inline constexpr double kSlimHang = 8;  // degrees from straight down of a slim body's arms
-
 struct Body {
   const modeler::Model* model;
   std::string name;    // of the actor, for messages
   glm::dmat3 axes;     // forward, left, up in the model's own frame
   std::size_t pelvis;  // named, or the joint that carries the hips
   std::array<Leg, 2> legs;
-  std::optional<std::array<Leg, 2>> forelegs{};      // where shoulders carry legs, too
-  double height = 0;                                 // of the pelvis over the floor as drawn, where it stands
-  std::array<double, 2> hang{kSlimHang, kSlimHang};  // degrees from straight down to its own side that an arm hangs
+  std::optional<std::array<Leg, 2>> forelegs{};  // where shoulders carry legs, too
+  double height = 0;                             // of the pelvis over the floor as drawn, where it stands
 
   const Leg& leg(modeler::Side side) const { return legs[index_of(side)]; }
-  double hang_of(modeler::Side side) const { return hang[index_of(side)]; }
   double leg_length() const { return legs[0].length(); }
   bool planar() const;  // legs swing forward and back alone
   bool stiff() const { return legs[0].knee == modeler::kNone; }

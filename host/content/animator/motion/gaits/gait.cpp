@@ -1,6 +1,7 @@
 #include "host/content/animator/motion/gaits/gait.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -9,6 +10,7 @@
 #include <optional>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/motion/body/arms.h"
 #include "host/content/animator/motion/body/curve.h"
 #include "host/content/animator/motion/body/stiff_legs.h"
 
@@ -32,7 +34,8 @@ class Walker {
         carriage_(gait.manner->carriage),
         rolls_(rolls),
         start_(stance_of(body, start)),
-        floor_(body.floor_under(start)) {
+        floor_(body.floor_under(start)),
+        hang_{hang_beside(body, modeler::Side::left), hang_beside(body, modeler::Side::right)} {
     for (const modeler::Side side : kSides) {
       const Foot& foot = start_.feet[index_of(side)];
       const Footing footing{body.leg(side), gait.manner->tread,   gait.period,
@@ -162,7 +165,7 @@ class Walker {
     if (const std::size_t joint = body_.find(modeler::Limb::shoulder, side); joint != modeler::kNone)
       stance.turns[joint] =
           hanging_shoulder(body_, side,
-                           {s * (body_.hang_of(side) + 1.5 * much * wave(0.5)),
+                           {s * (hang_[index_of(side)] + 1.5 * much * wave(0.5)),
                             carriage_.shoulder.mean * swing + carriage_.shoulder.by * much * wave(0.02), s * -12});
     if (const std::size_t joint = body_.find(modeler::Limb::elbow, side); joint != modeler::kNone)
       stance.turns[joint] = hanging_elbow(
@@ -177,6 +180,7 @@ class Walker {
   bool rolls_;  // the pelvis, to lift legs of one piece
   Stance start_;
   double floor_;
+  std::array<double, 2> hang_;  // of left and right arm, degrees
   std::vector<Footwork> feet_;  // of left and right
   std::vector<CurvePoint> headings_;
 };
@@ -202,7 +206,7 @@ std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
     const auto add = [&](modeler::Limb limb, const glm::dmat3& turn) {
       if (const std::size_t joint = body.find(limb, side); joint != modeler::kNone) turns[joint] = turn;
     };
-    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * body.hang_of(side), 0, s * -12}));
+    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * hang_beside(body, side), 0, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body, side, {0, -14, s * -14}));
     add(modeler::Limb::wrist, hanging_wrist(body, side, {s * -6, 4, 0}));
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/content/animator/motion/body/arms.h"
 #include "host/content/animator/motion/body/body.h"
 #include "host/content/animator/pose/joint_frames.h"
 
@@ -119,7 +120,7 @@ TEST(Strangers, ArmsHangBesideABroadBody) {
 TEST(Strangers, SlimFiguresHangTheirArmsAsBefore) {
   const animator::Film film = read(film_with(human()));
   const Body body = body_of(film.models[film.actors[0].model], "anna", "test");
-  for (const modeler::Side side : kSides) EXPECT_DOUBLE_EQ(body.hang_of(side), kSlimHang);
+  for (const modeler::Side side : kSides) EXPECT_DOUBLE_EQ(hang_beside(body, side), kSlimHang);
 }
 
 }  // namespace
