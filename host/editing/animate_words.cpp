@@ -313,6 +313,7 @@ cli::Command add_animate(cli::Command mars, EditedFilm& film, int& code) {
   add_check(animate, *words, code);
   add_carrying(animate, film);
   add_motion(animate, film);
+  add_transfer(animate, film);
   animate.footer(kFooter);  // last, or each of its commands would have it
   animate.keeps(words);
   return animate;

@@ -21,8 +21,8 @@ class EditedFilm : public Edited {
   virtual std::string name_of_model(const std::string& file) const = 0;
   // How a person lengthens a film that is too short for what was just done; `words`: of the command line.
   virtual std::string how_to_lengthen(const std::string& words) const { return "repeat this with " + words; }
-  // The JSON of another film, which a person names as model files. Throws Failure where it is no film.
-  virtual document::Json read_other(const std::string& file) const = 0;
+  // Another film, which a person names as model files. Throws Failure where it is no film.
+  virtual film::FilmFile read_other(const std::string& file) const = 0;
   virtual std::string read_script(const std::filesystem::path& path) const = 0;
   // It stays as it was where `change` throws or the result is no film.
   virtual void change(const Change& change) = 0;

@@ -105,10 +105,10 @@ void FilmInMemory::create(const Json&) {
   throw Failure("is open already", path_.string(), "a new film is a file of its own: mars film FILM new");
 }
 
-Json FilmInMemory::read_other(const std::string& file) const {
+film::FilmFile FilmInMemory::read_other(const std::string& file) const {
   const fs::path path = path_.parent_path() / file;
   require_below(path);
-  return film::open_film(path).json;
+  return film::open_film(path);
 }
 
 std::string FilmInMemory::read_script(const fs::path& path) const {

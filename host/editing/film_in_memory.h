@@ -49,7 +49,7 @@ class FilmInMemory final : public EditedFilm {
   std::string how_to_lengthen(const std::string&) const override {
     return "undo this, tick \"May lengthen the film\" and apply it again";
   }
-  document::Json read_other(const std::string& file) const override;
+  film::FilmFile read_other(const std::string& file) const override;
   std::string read_script(const std::filesystem::path& path) const override;
   void change(const Change& change) override;
   void change_thing(const std::string& thing, const Change& change) override;

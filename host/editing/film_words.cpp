@@ -69,17 +69,21 @@ void run_new(const FilmWords& words) {
 
 // Of a film that may be in another folder.
 void run_add_of_film(const FilmWords& words) {
-  const Json other = words.film.read_other(words.from);
+  const film::FilmFile other = words.film.read_other(words.from);
   const auto file_name = [&](const std::string& file) {
     return words.film.name_of_model((std::filesystem::path(words.from).parent_path() / file).string());
   };
-  std::string length;
+  std::string length, rates;
   words.film.change([&](Json& film, const Meaning&) {
-    const auto last = animator::add_actor_of(film, other, words.name, file_name);
+    const auto last = animator::add_actor_of(film, other.json, words.name, file_name);
     length = last ? fit_length(film, *last, words.lengthen) : "";
     if (last && !length.empty())
       length += ": set its frames to " + std::to_string(*last + 1) + " to see all of the keys";
+    const double from = animator::rate_of(other.json), to = animator::rate_of(film);
+    if (last && from != to)
+      rates = "keys of " + document::shown(from) + " frames a second are at those of " + document::shown(to) + " now";
   });
+  if (!rates.empty()) words.film.remark(rates);
   if (!length.empty() && !words.lengthen) words.film.remark(length);
 }
 

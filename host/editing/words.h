@@ -32,6 +32,9 @@ void add_tangent(cli::Command animate, EditedFilm& film);
 // attach, detach, look and follow.
 void add_carrying(cli::Command animate, EditedFilm& film);
 
+// `motion`.
+void add_transfer(cli::Command animate, EditedFilm& film);
+
 // A command for each action of motion::actions(), and script.
 void add_motion(cli::Command animate, EditedFilm& film);
 

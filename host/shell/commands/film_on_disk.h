@@ -16,7 +16,7 @@ class FilmOnDisk : public editing::EditedFilm {
   std::filesystem::path path() const override { return name; }
   film::FilmFile read() const override { return film::open_film(name); }
   std::string name_of_model(const std::string& file) const override { return film::name_beside(name, file); }
-  document::Json read_other(const std::string& file) const override { return film::open_film(file).json; }
+  film::FilmFile read_other(const std::string& file) const override { return film::open_film(file); }
   std::string read_script(const std::filesystem::path& path) const override { return document::read_file(path); }
   void create(const document::Json& json) override { film::create_film(name, json); }
   void change(const Change& change) override { film::change_film(name, change); }

@@ -8,6 +8,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/written.h"
+#include "host/content/animator/settings/retime.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/modeler/figure_library.h"
@@ -121,6 +122,8 @@ bool stands_elsewhere(const Json& model, const std::string& name) {
 
 }  // namespace
 
+double rate_of(const Json& film) { return film.value("rate", 24.0); }
+
 bool is_model_file(const Json& film, const std::string& model) {
   const bool known = film.at("models").contains(model) || modeler::find_in_library(model) != nullptr;
   return !known && std::filesystem::path(model).extension() == ".json";
@@ -148,6 +151,7 @@ std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const s
   Json changed = film;
   actor["name"] = name;
   actor["model"] = put_model(changed, model, named);
+  if (rate_of(other) != rate_of(film)) retime_actor(actor, rate_of(film) / rate_of(other));
   std::optional<std::uint32_t> last;
   for (const char* list : {"keys", "matrices"})
     for (const Json& key : actor.value(list, Json::array()))

@@ -139,6 +139,13 @@ glm::dvec3 down_between_feet(const modeler::Model& model, const Posture& drawn, 
   return glm::cross(left, middle(kForeleg) - middle(kHindLeg));
 }
 
+std::vector<std::size_t> limbs_of(const modeler::Model& model) {
+  std::vector<std::size_t> all(model.limbs.trunk.begin(), model.limbs.trunk.end());
+  for (const auto& side : model.limbs.sides) all.insert(all.end(), side.begin(), side.end());
+  std::erase(all, modeler::kNone);
+  return all;
+}
+
 }  // namespace
 
 glm::dvec2 ahead_of(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
@@ -196,10 +203,25 @@ bool Body::planar() const {
 }
 
 std::vector<std::size_t> Body::joints() const {
-  std::vector<std::size_t> all(model->limbs.trunk.begin(), model->limbs.trunk.end());
-  for (const auto& side : model->limbs.sides) all.insert(all.end(), side.begin(), side.end());
-  std::erase(all, modeler::kNone);
+  std::vector<std::size_t> all = limbs_of(*model);
+  const std::vector<std::size_t> others = between();
+  all.insert(all.end(), others.begin(), others.end());
   std::sort(all.begin(), all.end());
+  return all;
+}
+
+std::vector<std::size_t> Body::between() const {
+  std::vector<std::size_t> all;
+  for (const std::size_t end : {find(modeler::Trunk::head), find(modeler::Limb::shoulder, modeler::Side::left),
+                                find(modeler::Limb::shoulder, modeler::Side::right)}) {
+    if (end == modeler::kNone || end == pelvis || !modeler::is_at_or_below(model->joints, end, pelvis)) continue;
+    for (std::size_t joint = model->joints[end].parent; joint != pelvis; joint = model->joints[joint].parent)
+      all.push_back(joint);
+  }
+  const std::vector<std::size_t> limbs = limbs_of(*model);
+  std::erase_if(all, [&](std::size_t joint) { return std::find(limbs.begin(), limbs.end(), joint) != limbs.end(); });
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;
 }
 

@@ -69,8 +69,10 @@ struct Body {
 
   std::size_t find(modeler::Trunk part) const { return model->limbs.of(part); }
   std::size_t find(modeler::Limb limb, modeler::Side side) const { return model->limbs.of(limb, side); }
-  // All joints that are limbs, in the model's order.
+  // All joints that are limbs or lie between limbs, in the model's order.
   std::vector<std::size_t> joints() const;
+  // What lies between pelvis and head, or pelvis and shoulder, and is no limb: further joints of a back, collarbones.
+  std::vector<std::size_t> between() const;
   const std::string& joint_name(std::size_t joint) const { return model->joints[joint].name; }
 
   double heading_of(const Posture& posture) const;  // degrees from x to y

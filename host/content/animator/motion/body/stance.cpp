@@ -284,6 +284,10 @@ glm::dvec3 numbers_for(const Body& body, std::size_t joint, const glm::dmat3& tu
   return nearest_turns(body.model->joints[joint], body.axes * turn * glm::transpose(body.axes), near);
 }
 
+void straighten_between(const Body& body, Stance& stance) {
+  for (const std::size_t joint : body.between()) stance.turns[joint] = glm::dmat3(1);
+}
+
 void place_pelvis(const Body& body, const Stance& stance, Posture& posture) {
   turn_actor(body, stance.heading, posture);
   const std::size_t joints[] = {body.pelvis};

@@ -37,6 +37,9 @@ glm::dmat3 hanging_shoulder(const Body& body, modeler::Side side, const glm::dve
 glm::dmat3 hanging_elbow(const Body& body, modeler::Side side, const glm::dvec3& degrees);
 glm::dmat3 hanging_wrist(const Body& body, modeler::Side side, const glm::dvec3& degrees);
 
+// Lets what lies between the limbs be as it is drawn.
+void straighten_between(const Body& body, Stance& stance);
+
 // Turns and places the posture's pelvis as the stance has it, as nearly as limits allow.
 void place_pelvis(const Body& body, const Stance& stance, Posture& posture);
 

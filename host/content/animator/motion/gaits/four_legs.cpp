@@ -144,6 +144,7 @@ class Strider {
     const double flex = beat(gait_.flex, time);
     stance.tilt = (1 - settle) * from_.tilt + glm::dvec3(0, style_.bounce * beat(gait_.rock, time) - 0.5 * flex, 0);
     add_trunk(stance, flex, beat(gait_.nod, time));
+    straighten_between(body_, stance);
     for (const modeler::Side side : kSides) {
       stance.feet[index_of(side)] = feet_[0][index_of(side)].at(time);
       stance.forefeet[index_of(side)] = feet_[1][index_of(side)].at(time);

@@ -1,6 +1,7 @@
 #include "host/content/animator/motion/gaits/gait.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -9,6 +10,7 @@
 #include <optional>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/motion/body/arms.h"
 #include "host/content/animator/motion/body/curve.h"
 #include "host/content/animator/motion/body/stiff_legs.h"
 
@@ -32,7 +34,8 @@ class Walker {
         carriage_(gait.manner->carriage),
         rolls_(rolls),
         start_(stance_of(body, start)),
-        floor_(body.floor_under(start)) {
+        floor_(body.floor_under(start)),
+        hang_{hang_beside(body, modeler::Side::left), hang_beside(body, modeler::Side::right)} {
     for (const modeler::Side side : kSides) {
       const Foot& foot = start_.feet[index_of(side)];
       const Footing footing{body.leg(side), gait.manner->tread,   gait.period,
@@ -105,6 +108,7 @@ class Walker {
                                                           swing * (carriage_.lean + wave(0.05, 2)) + 0.4 * lean,
                                                           -carriage_.twist * loose * swing * wave(0));
     add_trunk(stance, p, swing, lean);
+    straighten_between(body_, stance);
     for (const modeler::Side side : kSides) add_arm(stance, side, p, swing);
     return stance;
   }
@@ -161,7 +165,7 @@ class Walker {
     if (const std::size_t joint = body_.find(modeler::Limb::shoulder, side); joint != modeler::kNone)
       stance.turns[joint] =
           hanging_shoulder(body_, side,
-                           {s * (8 + 1.5 * much * wave(0.5)),
+                           {s * (hang_[index_of(side)] + 1.5 * much * wave(0.5)),
                             carriage_.shoulder.mean * swing + carriage_.shoulder.by * much * wave(0.02), s * -12});
     if (const std::size_t joint = body_.find(modeler::Limb::elbow, side); joint != modeler::kNone)
       stance.turns[joint] = hanging_elbow(
@@ -176,6 +180,7 @@ class Walker {
   bool rolls_;  // the pelvis, to lift legs of one piece
   Stance start_;
   double floor_;
+  std::array<double, 2> hang_;  // of left and right arm, degrees
   std::vector<Footwork> feet_;  // of left and right
   std::vector<CurvePoint> headings_;
 };
@@ -195,12 +200,13 @@ std::map<std::size_t, glm::dmat3> at_ease(const Body& body) {
   for (const modeler::Trunk part :
        {modeler::Trunk::spine, modeler::Trunk::chest, modeler::Trunk::neck, modeler::Trunk::head})
     if (const std::size_t joint = body.find(part); joint != modeler::kNone) turns[joint] = glm::dmat3(1);
+  for (const std::size_t joint : body.between()) turns[joint] = glm::dmat3(1);
   for (const modeler::Side side : kSides) {
     const double s = sign_of(side);
     const auto add = [&](modeler::Limb limb, const glm::dmat3& turn) {
       if (const std::size_t joint = body.find(limb, side); joint != modeler::kNone) turns[joint] = turn;
     };
-    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * 8, 0, s * -12}));
+    add(modeler::Limb::shoulder, hanging_shoulder(body, side, {s * hang_beside(body, side), 0, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body, side, {0, -14, s * -14}));
     add(modeler::Limb::wrist, hanging_wrist(body, side, {s * -6, 4, 0}));
   }

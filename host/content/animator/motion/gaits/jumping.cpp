@@ -1,12 +1,14 @@
 #include "host/content/animator/motion/gaits/jumping.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
 #include "hal/failure/failure.h"
+#include "host/content/animator/motion/body/arms.h"
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/gaits/going.h"
 #include "host/content/animator/motion/scene/gravity.h"
@@ -42,7 +44,8 @@ class Jumper {
         body_(body_of(scene.model(), scene.actor.name, "jump")),
         start_(posture_of(scene)),
         from_(stance_of(body_, start_)),
-        floor_(body_.floor_under(start_)) {
+        floor_(body_.floor_under(start_)),
+        hang_{hang_beside(body_, modeler::Side::left), hang_beside(body_, modeler::Side::right)} {
     for (const modeler::Side side : kSides) needed(body_, modeler::Limb::knee, side, "jump");
     require_upright(scene, body_, start_);
     const Arguments& arguments = scene.arguments;
@@ -207,6 +210,7 @@ class Jumper {
     const double lean = kLean * (crouched + 0.8 * sunk);
     stance.tilt = (1 - smooth(0, f.gather, time)) * from_.tilt + glm::dvec3(0, 0.6 * lean, 0);
     add_trunk(stance, lean);
+    straighten_between(body_, stance);
     for (const modeler::Side side : kSides) {
       add_arm(stance, side, time);
       stance.feet[index_of(side)] = foot_at(side, time);
@@ -237,7 +241,7 @@ class Jumper {
     const auto add = [&](modeler::Limb limb, const glm::dmat3& turn) {
       if (const std::size_t joint = body_.find(limb, side); joint != modeler::kNone) stance.turns[joint] = turn;
     };
-    add(modeler::Limb::shoulder, hanging_shoulder(body_, side, {s * 9, swing, s * -12}));
+    add(modeler::Limb::shoulder, hanging_shoulder(body_, side, {s * (hang_[index_of(side)] + 1), swing, s * -12}));
     add(modeler::Limb::elbow, hanging_elbow(body_, side, {0, -14 - bend, s * -14}));
     add(modeler::Limb::wrist, hanging_wrist(body_, side, {s * -6, 4, 0}));
   }
@@ -247,6 +251,7 @@ class Jumper {
   Posture start_;
   Stance from_;
   double floor_;
+  std::array<double, 2> hang_;  // of left and right arm, degrees
   double gravity_, height_, distance_, turn_;
   double pace_;  // times an ordinary one's, by its gravity
   Plan plan_;

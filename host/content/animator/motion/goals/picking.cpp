@@ -171,6 +171,7 @@ class Handling {
   // The body bent by its share, arms and trunk so far on the way from `from` to the contact.
   void blend(const Posture& from, double part, Posture& posture) const {
     Posture bent = posture;
+    for (const std::size_t joint : body_.between()) bent.pose[joint] = start_.pose[joint];
     crouch_.take(depth_ * part, twist_ * std::min(1.0, 3 * depth_ + 0.4) * part, bent);
     posture = bent;
     for (const std::size_t joint : chain_.trunk)
@@ -241,19 +242,9 @@ modeler::Side nearer_hand(const Scene& scene, const Body& body, const glm::dvec3
   return glm::dot(way, left) > 0.1 * body.leg_length() ? modeler::Side::left : modeler::Side::right;
 }
 
-std::vector<std::size_t> driven(const Body& body) {
-  std::vector<std::size_t> joints = body.joints();
-  // What lies between the limbs that bend.
-  for (const modeler::Side side : kSides)
-    if (const std::size_t shoulder = body.find(modeler::Limb::shoulder, side); shoulder != modeler::kNone)
-      for (const std::size_t joint : chain_of(*body.model, shoulder, Extent::trunk).trunk)
-        if (std::find(joints.begin(), joints.end(), joint) == joints.end()) joints.push_back(joint);
-  return joints;
-}
-
 void add(Rehearsal& rehearsal, const Body& body, const Fingers& fingers, const std::vector<Posture>& postures) {
   const std::uint32_t first = rehearsal.at();
-  std::vector<std::size_t> joints = driven(body);
+  std::vector<std::size_t> joints = body.joints();
   for (const auto& [joint, numbers] : fingers) joints.push_back(joint);
   rehearsal.add({keys_of(body, joints, postures, first), first + std::uint32_t(postures.size()) - 1});
 }

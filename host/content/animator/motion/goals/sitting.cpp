@@ -91,6 +91,7 @@ class Chair {
       const double lean = kLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
       stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
       bend(stance, lean);
+      straighten_between(body_, stance);
       take_stance(body_, stance, posture, std::string(command_) + " at frame " + std::to_string(scene_.at + frame),
                   remedy_);
       move_arms(arms, u, posture);

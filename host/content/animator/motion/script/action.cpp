@@ -16,6 +16,7 @@
 #include "host/content/animator/motion/gaits/steps.h"
 #include "host/content/animator/motion/gaits/striding.h"
 #include "host/content/animator/motion/goals/tossing.h"
+#include "host/content/animator/motion/script/resting.h"
 #include "host/content/animator/reading/read_film.h"
 
 namespace mars::motion {
@@ -174,6 +175,8 @@ bool is_about_hands(const Action& action) {
   });
 }
 
+bool holds_nothing(const animator::ActorKey& key) { return !key.place && !key.turn && !key.attach && key.pose.empty(); }
+
 // The arm of a hand that holds something stays as it is: it neither swings nor rests.
 void keep_holding(const Scene& scene, Motion& motion) {
   const std::vector<modeler::Joint>& joints = scene.model().joints;
@@ -192,9 +195,26 @@ void keep_holding(const Scene& scene, Motion& motion) {
         for (const std::string& name : arm) key.pose.erase(name);
     }
   }
-  std::erase_if(motion.keys, [](const animator::ActorKey& key) {
-    return !key.place && !key.turn && !key.attach && key.pose.empty();
-  });
+}
+
+// Whether arms that stand as they are drawn hang from then on: not of what moves as a whole or stays where it is.
+bool lets_arms_hang(const Action& action) { return !action.needs.empty() && action.perform != plant; }
+
+Motion performed(const Scene& scene, const Action& action) {
+  const auto hanging = lets_arms_hang(action) ? hanging_arms(scene) : std::nullopt;
+  Motion motion;
+  if (hanging) {
+    const animator::Film film = with_key(scene, *hanging);
+    const auto number = static_cast<std::size_t>(&scene.actor - scene.film.actors.data());
+    motion = action.perform({film, film.actors[number], scene.at, scene.arguments, scene.action});
+    motion.keys.insert(motion.keys.begin(), *hanging);
+  } else {
+    motion = action.perform(scene);
+  }
+  if (!is_about_hands(action)) keep_holding(scene, motion);
+  leave_out_idle(scene, motion.keys);
+  std::erase_if(motion.keys, holds_nothing);
+  return motion;
 }
 
 }  // namespace
@@ -226,8 +246,7 @@ Performed perform(document::Json& json, const animator::Film& film, const std::s
     throw Failure("is moved by matrices", "actor '" + name + "'",
                   "take its matrices out of the film, or name another actor");
   const Scene scene{film, actor, at ? *at : animator::last_key(actor), arguments, action.name};
-  Motion motion = action.perform(scene);
-  if (!is_about_hands(action)) keep_holding(scene, motion);
+  Motion motion = performed(scene, action);
   // Where it is elsewhere afterwards, what followed was meant for another place.
   const animator::ActorKey driven = all_of(motion.keys);
   refuse_carried(scene, driven);
