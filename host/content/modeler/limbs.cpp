@@ -58,9 +58,10 @@ class LimbReader {
     for (std::size_t i = 0; i < chain.size(); ++i) {
       if (chain[i] == kNone) continue;
       if (before != kNone && !is_at_or_below(joints_, chain[i], before))
-        fields.find(names[i])->refuse("is '" + joints_[chain[i]].name + "', which does not hang below the " +
-                                          std::string(names[before_name]) + " '" + joints_[before].name + "'",
-                                      "name joints from the body outwards; mars model MODEL set JOINT --reset limb makes a joint no limb");
+        fields.find(names[i])->refuse(
+            "is '" + joints_[chain[i]].name + "', which does not hang below the " + std::string(names[before_name]) +
+                " '" + joints_[before].name + "'",
+            "name joints from the body outwards; mars model MODEL set JOINT --reset limb makes a joint no limb");
       before = chain[i];
       before_name = i;
     }

@@ -1,7 +1,7 @@
-// Which models a film can have, and small pictures of them for pages (docs/studio-protocol.md, "Models"). `mars preview`
-// draws a picture when a page asks for it: one at a time, in a process of its own that lets all else go before, and
-// begun only while no page moves anything. It stays until the model's file changes. All calls and callbacks are on the
-// thread that runs the io_context.
+// Which models a film can have, and small pictures of them for pages (docs/studio-protocol.md, "Models"). `mars
+// preview` draws a picture when a page asks for it: one at a time, in a process of its own that lets all else go
+// before, and begun only while no page moves anything. It stays until the model's file changes. All calls and callbacks
+// are on the thread that runs the io_context.
 #pragma once
 
 #include <filesystem>

@@ -240,7 +240,7 @@ TEST_F(ImportTest, AFlatMeshHasABoxAllTheSame) {
 }
 
 TEST_F(ImportTest, BadFilesAreOneClearFailure) {
-  EXPECT_TRUE(document::holds(failure("a.obj", ""), "is no sound mesh file"));
+  EXPECT_TRUE(document::holds(failure("a.obj", ""), "a.obj: is empty ("));
   EXPECT_TRUE(document::holds(failure("a.stl", "solid x\nfacet"), "mesh file"));
   EXPECT_TRUE(document::holds(failure("a.glb", "glTF and then nothing"), "is no sound mesh file"));
   EXPECT_TRUE(document::holds(failure("a.gltf", "{\"asset\": "), "is no sound mesh file"));
@@ -489,6 +489,8 @@ TEST_F(ImportTest, AFileThatTakesAllMemoryIsOneClearFailure) {
   if (sanitizers::kSanitized) GTEST_SKIP() << "a sanitizer ends a process that gets no memory";
   write("figure.bin", gltf_numbers());
   std::string text = gltf_figure();
+  const std::string others = R"(, "JOINTS_0": 1, "WEIGHTS_0": 2, "COLOR_0": 3, "TEXCOORD_0": 4)";
+  text.erase(text.find(others), others.size());
   const std::string count = "\"componentType\": 5126, \"count\": 3, \"type\": \"VEC3\", \"min\"";
   text.replace(
       text.find("\"bufferView\": 0, " + count), 17 + count.size(),

@@ -189,7 +189,8 @@ TEST_F(SceneFileTest, SkinsThatCannotBeReadAreRefused) {
       << failure(few);
   test::Glb twice = figure();
   twice.json["skins"].push_back(twice.json["skins"][0]);
-  twice.json["skins"][1]["inverseBindMatrices"] = 0;
+  const std::size_t joints = twice.json["skins"][0]["joints"].size();
+  twice.json["skins"][1]["inverseBindMatrices"] = twice.floats("MAT4", std::vector<float>(16 * joints));
   twice.json["nodes"].push_back({{"mesh", 0}, {"skin", 1}});
   EXPECT_TRUE(document::holds(failure(twice), "has a mesh under two skins ("));
   test::Glb same = figure();
@@ -453,7 +454,9 @@ TEST_F(SceneFileTest, FilesOfOthers) {
   EXPECT_LT(glm::distance(inner.segment->sbb.min, glm::dvec3(-0.33504, -0.33504, -0.5)), 1e-7);
   EXPECT_LT(glm::distance(inner.segment->sbb.max, glm::dvec3(0.33504, 0.33504, 0.5)), 1e-7);
   EXPECT_EQ(box.shapes[0].mesh->normals.size(), box.shapes[0].mesh->vertices.size());
-  const modeler::Model figure = import(options_for(data / "RiggedFigure.glb"));
+  ImportOptions as_in_the_file = options_for(data / "RiggedFigure.glb");
+  as_in_the_file.front = "x";
+  const modeler::Model figure = import(as_in_the_file);
   expect_printed("365 vertices of the file's 370, 256 faces, normals, 1 colour");
   expect_printed("1.45 m tall");
   expect_printed("a skin, which 19 joints move, of 1 mesh");

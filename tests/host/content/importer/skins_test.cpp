@@ -192,7 +192,8 @@ class SkinsTest : public ImportFolder {
  protected:
   // That each vertex of the file is one of the model's, within 1e-5 of the height; MARS has z up.
   void expect_as_in_the_file(const std::string& bytes, const std::vector<Poses>& all) const {
-    const auto options = options_for(write("file.glb", bytes));
+    ImportOptions options = options_for(write("file.glb", bytes));
+    options.front = "x";
     printed_ = import_model(options);
     const modeler::Model model = modeler::load_model(options.to);
     const modeler::Box box = *modeler::rest_bounds(model);

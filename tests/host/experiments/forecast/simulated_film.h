@@ -1,4 +1,5 @@
-// A film of examples/, or one whose name is a path without .json, counted and forecast, and rendered on simulated machines to compare.
+// A film of examples/, or one whose name is a path without .json, counted and forecast, and rendered on simulated
+// machines to compare.
 #pragma once
 
 #include <cstdint>

@@ -33,15 +33,15 @@ constexpr Parameter kPut[] = {{"to", "X Y Z", "the place at which the thing stan
                               {"what", "ACTOR", "the thing; default: what the hand holds", "ball"},
                               kSeconds};
 
-constexpr double kSeconds0 = 1.2, kSecondsDown = 1.1;  // and so much more for the lowest
-constexpr double kSecondsGrip = 0.25;                  // while fingers close or open and the hand waits
-constexpr int kDepths = 24;                            // tries from upright to the lowest
-constexpr double kStretch = 0.93;                      // of the arm, that it likes to be stretched to
-constexpr double kFar = 0.002;                         // of the arm: what is nearer is there
-constexpr double kClear = 0.35;                        // of the arm, from where a hand goes straight to the thing
-constexpr double kMostTwist = 50;                      // degrees
-constexpr double kRelaxing = 0.4;                      // of the way back, from where fingers are as they hang
-constexpr double kOpening[] = {0.15, 0.75};            // of the way to the thing: meanwhile fingers stretch
+constexpr double kSeconds0 = 1.2, kSecondsDown = 1.25;  // and so much more for the lowest
+constexpr double kSecondsGrip = 0.25;                   // while fingers close or open and the hand waits
+constexpr int kDepths = 24;                             // tries from upright to the lowest
+constexpr double kStretch = 0.93;                       // of the arm, that it likes to be stretched to
+constexpr double kFar = 0.002;                          // of the arm: what is nearer is there
+constexpr double kClear = 0.35;                         // of the arm, from where a hand goes straight to the thing
+constexpr double kMostTwist = 50;                       // degrees
+constexpr double kRelaxing = 0.4;                       // of the way back, from where fingers are as they hang
+constexpr double kOpening[] = {0.15, 0.75};             // of the way to the thing: meanwhile fingers stretch
 
 constexpr std::string_view kHands[] = {"left", "right"};
 

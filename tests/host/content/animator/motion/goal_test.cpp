@@ -121,7 +121,7 @@ TEST(Pick, TakesABallFromTheFloorAndFromATable) {
       }
       expect_limits(film, done, what);
       expect_feet(film, done, 2 * kMillimetre * figure.size, what);
-      expect_smooth(film, 0, hand.end, done.first, done.last, 0.2 * figure.size, what);
+      expect_smooth(film, 0, hand.end, done.first, done.last, 0.17 * figure.size, what);
     }
 }
 
