@@ -57,19 +57,20 @@ struct FileItself {
     if (kind == FileKind::glb && bytes.size() >= 4 && !bytes.starts_with("glTF"))
       throw Failure("is no GLB file: it does not begin with glTF", path.string(), "name it by what it is");
     Tree gltf;
+    bool is_unpacked = false;
     if (is_gltf(kind)) {
       GltfBytes given = gltf_bytes(path, std::move(bytes));
       bytes = std::move(given.bytes);
       gltf = std::move(given.gltf);
-      if (given.unpacked) unpacked = bytes;
+      is_unpacked = given.unpacked;
     }
     promised = promised_by(path, kind, bytes, gltf);
+    if (is_unpacked) unpacked = std::move(bytes);
     if (is_gltf(kind)) skins = gltf_skins(path, gltf);
     limbs = limb_map(gltf);
   }
 
-  std::string unpacked;  // a GLB in place of the file; "": Assimp can read that itself
-
+  std::string unpacked;  // a GLB in place of the file; "": Assimp can read the file itself
   Promised promised;
   std::optional<GltfSkins> skins;  // of scenes; FBX's and COLLADA's are known when Assimp has read them
   std::optional<LimbMap> limbs;    // by the numbers of nodes
