@@ -77,6 +77,7 @@ class Unpacker {
     const Tree before = gltf_;
     const GltfBuffers buffers(path_, bytes, before, "a view");
     for (Tree& view : gltf_["bufferViews"]) {
+      if (!view.is_object()) fail("has a buffer view that is no object");
       const Tree packed = packed_view(view);
       put(view, packed.is_null() ? std::string(buffers.bytes_at(view)) : unpacked(packed, view, buffers));
       if (!packed.is_null()) view["extensions"].erase(std::string(kMeshopt));
