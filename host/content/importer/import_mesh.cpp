@@ -5,6 +5,7 @@
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
+#include "host/content/importer/joint_names.h"
 #include "host/content/importer/mesh_file.h"
 #include "host/content/importer/model_text.h"
 
@@ -75,10 +76,10 @@ std::string box_text(const glm::dvec3& extent, double factor, FileKind kind, con
 
 MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& stance, std::vector<glm::dmat4> rest) {
   const bool looks_ahead = options.front.empty() && rest.empty();
-  MeshFile file =
-      read_mesh_file(options.from, kind,
-                     {stance.upright, options.size, options.crease, options.joint, set_material(options),
-                      set_limb(options), options.to.stem().string() + "-images", std::move(rest), looks_ahead});
+  MeshFile file = read_mesh_file(options.from, kind,
+                                 {stance.upright, options.size, options.crease, options.joint, set_material(options),
+                                  set_limb(options), in_utf8(options.to.stem().string()) + "-images", std::move(rest),
+                                  looks_ahead});
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   return file;
 }
