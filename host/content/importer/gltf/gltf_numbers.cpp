@@ -15,8 +15,8 @@ namespace mars::importer {
 namespace {
 
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-constexpr std::size_t kFloats = 5126, kWholeNumbers = 5125;  // types of components, of 4 bytes each
-constexpr std::size_t kMostSparse = std::size_t{1} << 24;    // elements without a view of their own
+constexpr std::size_t kWholeNumbers = 5125;                // a type of components, of 4 bytes as kFloatType
+constexpr std::size_t kMostSparse = std::size_t{1} << 24;  // elements without a view of their own
 
 int base64_digit(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
@@ -56,7 +56,7 @@ std::size_t width_of(const Tree& type) {
 }
 
 std::size_t size_of(std::size_t component) {
-  return component == 5126                        ? 4
+  return component == kFloatType                  ? 4
          : component == 5120 || component == 5121 ? 1
          : component == 5122 || component == 5123 ? 2
                                                   : 0;
@@ -67,7 +67,7 @@ double component_at(std::string_view bytes, std::size_t component, bool normaliz
   for (std::size_t i = size_of(component); i-- > 0;) bits = bits << 8 | static_cast<unsigned char>(bytes[i]);
   const auto part = [&](double number, double whole) { return normalized ? std::max(number / whole, -1.0) : number; };
   switch (component) {
-    case 5126: return double(std::bit_cast<float>(bits));
+    case kFloatType: return double(std::bit_cast<float>(bits));
     case 5120: return part(static_cast<std::int8_t>(bits), 127);
     case 5121: return part(bits, 255);
     case 5122: return part(static_cast<std::int16_t>(bits), 32767);
@@ -166,7 +166,7 @@ GltfNumbers GltfBuffers::read(const Tree& index, bool normalized) const {
 void GltfBuffers::replace_sparse(const Tree& sparse, std::size_t component, bool normalized, GltfNumbers& read) const {
   const Tree& indices = at(sparse, "indices");
   const std::size_t count = number(at(sparse, "count"), 0), type = number(at(indices, "componentType"), 0);
-  const Run places = run(indices, count, type == kWholeNumbers ? kFloats : type, 1),
+  const Run places = run(indices, count, type == kWholeNumbers ? kFloatType : type, 1),
             values = run(at(sparse, "values"), count, component, read.width);
   bool fits = places.fits && values.fits;
   for (std::size_t i = 0; fits && i < count; ++i) {
