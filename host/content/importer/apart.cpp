@@ -40,9 +40,9 @@ Failure unpacked(const std::string& text, const std::string& where) {
   return {parts[0], parts[1].empty() ? where : parts[1], parts[2]};
 }
 
-// What libraries print before they abort says nothing to people. Sanitizers' reports are wanted.
+// What libraries print before they abort says nothing to people. Reports of sanitizers do.
 void silence_libraries() {
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
 #endif

@@ -17,7 +17,7 @@ class ImageWriter {
  public:
   // `force`: other files under the images' names may be there, and are replaced.
   ImageWriter(const std::filesystem::path& model, bool force) : folder_(model.parent_path()), force_(force) {}
-  // Takes away what it made anew, unless it is kept.
+  // Removes the files and folders that it made and that were not there before, unless keep() was called.
   ~ImageWriter();
   ImageWriter(const ImageWriter&) = delete;
   ImageWriter& operator=(const ImageWriter&) = delete;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -117,18 +119,18 @@ class Unpacker {
     throw Failure(problem, path_.string(), "export it again, or unpack it: gltf-transform dequantize in.glb out.glb");
   }
 
-  // Which of the words it is; the first where it is not there.
-  std::size_t word(const Tree& word, std::span<const std::string_view> words) const {
+  // The number of `word` among `words`; 0 where the file does not have it.
+  std::size_t number_of(const Tree& word, std::span<const std::string_view> words) const {
     if (word.is_null()) return 0;
     const auto known = std::ranges::find(words, word.is_string() ? word.get_ref<const std::string&>() : "");
     if (known == words.end()) fail("is packed as " + std::string(kMeshopt) + " in a way that is not known");
     return static_cast<std::size_t>(known - words.begin());
   }
 
-  // Lengths and strides are as the library wants them.
+  // Refuses lengths and strides for which the library is not defined.
   std::string unpacked(const Tree& packed, const Tree& view, const GltfBuffers& buffers) const {
-    const MeshoptView how{static_cast<MeshoptMode>(word(at(packed, "mode"), kModes)),
-                          static_cast<MeshoptFilter>(word(at(packed, "filter"), kFilters)),
+    const MeshoptView how{static_cast<MeshoptMode>(number_of(at(packed, "mode"), kModes)),
+                          static_cast<MeshoptFilter>(number_of(at(packed, "filter"), kFilters)),
                           number(at(packed, "count"), 0), number(at(packed, "byteStride"), 0)};
     const bool attributes = how.mode == MeshoptMode::attributes;
     bool sound =

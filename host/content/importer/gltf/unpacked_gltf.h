@@ -17,8 +17,8 @@ struct GltfBytes {
 };
 
 // Unpacks views of EXT_meshopt_compression, and makes floats of the bytes and shorts that KHR_mesh_quantization, or
-// glTF itself, allows for attributes of meshes, except bones' numbers and colours. What such numbers mean, nodes and
-// skins of the file say. Throws Failure where the file is damaged.
+// glTF itself, allows for attributes of meshes, except bones' numbers and colours. Matrices of the file's nodes and
+// skins bring quantized places to their size. Throws Failure where the file is damaged.
 GltfBytes gltf_bytes(const std::filesystem::path& path, std::string bytes);
 
 }  // namespace mars::importer
