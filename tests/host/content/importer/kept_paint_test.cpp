@@ -84,12 +84,25 @@ TEST_F(KeptPaintTest, OnlyForceReplacesAnotherImage) {
   EXPECT_TRUE(document::holds(failure(square(true), false), "model-images: is no folder"));
 }
 
+// The second of two images cannot be written.
 TEST_F(KeptPaintTest, AnImportThatFailsLeavesNoImage) {
-  write("stone wall.png", kPng);
-  ImportOptions options = options_for(square(true));
-  fs::create_directories(options.to / "in the way");
-  EXPECT_THROW(import_model(options), std::exception);
-  EXPECT_FALSE(fs::exists(folder_ / "model-images"));
+  write("stone.png", kPng);
+  write("bumps.png", kPng);
+  fs::create_directory(folder_ / "model-images");
+  write("model-images/bumps.png", "somebody's own");
+  test::Glb glb;
+  glb.triangle({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  glb.json["nodes"] = {{{"mesh", 0}}};
+  glb.json["meshes"][0]["primitives"][0]["material"] = 0;
+  glb.json["materials"] =
+      json::parse(R"([{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "normalTexture": {"index": 1}}])");
+  glb.json["textures"] = json::parse(R"([{"source": 0}, {"source": 1}])");
+  glb.json["images"] = json::parse(R"([{"uri": "stone.png"}, {"uri": "bumps.png"}])");
+  const std::string problem = failure(write("a.glb", glb.file()), false);
+  EXPECT_TRUE(document::holds(problem, "bumps.png: is there already, with another image")) << problem;
+  EXPECT_FALSE(fs::exists(folder_ / "model-images" / "stone.png"));
+  EXPECT_EQ(bytes_of(folder_ / "model-images" / "bumps.png"), "somebody's own");
+  EXPECT_FALSE(fs::exists(folder_ / "model.json"));
 }
 
 // v runs down in glTF, and its colours are amounts of light: 0.214041 is shown as 0.5.
