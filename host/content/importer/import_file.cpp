@@ -47,7 +47,7 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
   if (error) bytes = 0;
   for (const std::filesystem::path& each : more)
     if (const std::uintmax_t size = std::filesystem::file_size(each, error); !error) bytes += size;
-  if (kind == FileKind::gltf)
+  if (is_gltf(kind))
     bytes += std::stoull(run_apart([&] { return std::vector{std::to_string(bytes_of_buffers(path))}; },
                                    limits_for(bytes), path.string(), kRemedy));
   return run_apart(read, limits_for(bytes), path.string(), kRemedy);
