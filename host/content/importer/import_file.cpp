@@ -53,22 +53,24 @@ std::string read_apart(const std::filesystem::path& path, const std::vector<std:
   return run_apart(read, limits_for(bytes), path.string(), kRemedy);
 }
 
-bool is_film(const ImportOptions& options, FileKind kind) {
-  return options.as ? *options.as == ImportAs::film : kind == FileKind::bvh || kind == FileKind::amc;
+// What files of this kind become without --as.
+ImportAs usual_form(FileKind kind) {
+  return kind == FileKind::bvh || kind == FileKind::amc ? ImportAs::film : ImportAs::model;
 }
 
 // Of strange files, films and models may be beyond what MARS takes. Large meshes stand in brief.
-void check_text(const document::LongText& text, const ImportOptions& options, FileKind kind) {
+void check_text(const document::LongText& text, const ImportOptions& options) {
   const std::string file = options.from.string();
+  const bool is_film = options.as == ImportAs::film;
   try {
     const document::Document document(document::brief_of(text), file);
-    if (is_film(options, kind))
+    if (is_film)
       animator::read_film(document.root(), options.to.parent_path());
     else
       modeler::read_model(document.root());
   } catch (const Failure& failure) {
     const std::size_t element = failure.where.find(": ", std::min(file.size(), failure.where.size()));
-    throw Failure(std::string("makes a ") + (is_film(options, kind) ? "film" : "model") + " that MARS refuses: " +
+    throw Failure(std::string("makes a ") + (is_film ? "film" : "model") + " that MARS refuses: " +
                       (element == std::string::npos ? "" : failure.where.substr(element + 2) + " ") + failure.problem,
                   file, "make it larger or smaller with --scale, or mend it in the program that made it");
   }
@@ -81,7 +83,7 @@ std::vector<std::string> run(const ImportOptions& options, FileKind kind, const 
                           : is_patches(kind) ? import_patches(options, kind, stance)
                           : film             ? import_gltf_film(options, kind, stance)
                                              : import_mesh(options, kind, stance);
-  check_text(imported.text, options, kind);
+  check_text(imported.text, options);
   std::vector<std::string> parts{text_of(imported.report, options.to.string()) + '\0'};
   for (KeptImage& image : imported.images) {
     parts.push_back(image.file + '\0' + image.from.string() + '\0' + std::to_string(image.bytes.size()) + '\0');
@@ -171,6 +173,7 @@ std::string import_model(const ImportOptions& given) {
   const FileKind kind = kind_of_name(options.from);
   if (options.joint.empty()) options.joint = options.from.stem().string();
   check_joint(options.joint, given.joint, given.from);
+  if (!options.as) options.as = usual_form(kind);
   check_first_bytes(options.from, kind);
   check_options(options, kind);
   check_target(options);

@@ -188,8 +188,7 @@ ImportedText import_motion(const ImportOptions& options, FileKind kind, const st
   ImportReport report{"", box_text(rest_box(read.skeleton), up), {}, {}, {}, read.not_read};
   list_read(read, report);
   report.made.insert(report.made.begin(), read.made.begin(), read.made.end());
-  const bool film = options.as.value_or(kind == FileKind::asf ? ImportAs::model : ImportAs::film) == ImportAs::film;
-  if (!film) {
+  if (options.as != ImportAs::film) {
     if (!read.motion.poses.empty())
       report.not_read.push_back(document::counted(read.motion.poses.size(), "frame") +
                                 " of motion (--as film makes keys of them)");

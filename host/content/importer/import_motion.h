@@ -10,7 +10,7 @@
 
 namespace mars::importer {
 
-// Of BVH, ASF and AMC. `up` and `upright`: which of the file's axes becomes z, and how.
+// Of BVH, ASF and AMC, as what `options.as` has. `up` and `upright`: which of the file's axes becomes z, and how.
 ImportedText import_motion(const ImportOptions& options, FileKind kind, const std::string& up,
                            const glm::dmat3& upright);
 
