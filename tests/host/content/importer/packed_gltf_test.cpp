@@ -176,6 +176,11 @@ TEST_F(PackedGltfTest, DamagedViewsAreOneClearFailure) {
   EXPECT_TRUE(document::holds(failure_with("byteLength", 1 << 20), "beyond the end of its buffer"));
   EXPECT_TRUE(document::holds(failure_with("filter", "OCTAHEDRAL"), "that do not fit their view"));
   EXPECT_TRUE(document::holds(failure_with("mode", "WORDS"), "in a way that is not known"));
+  test::Glb odd = meshopt_square();
+  odd.json["bufferViews"].push_back(5);
+  write("file.glb", with_fallback(odd));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options_for(folder_ / "file.glb")); }),
+                              "has a buffer view that is no object"));
 }
 
 }  // namespace
