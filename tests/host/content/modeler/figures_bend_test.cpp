@@ -24,7 +24,7 @@ namespace {
 constexpr double kSmooth = 0.5;      // where four patches meet at each corner of both
 constexpr double kAnywhere = 5.5;    // along all that any two share
 constexpr double kAtRest = 3.8;      // the same at rest
-constexpr double kBetween = 65;      // the same in webs, when fingers are spread to their limits
+constexpr double kInWebs = 65;       // the same in webs, when fingers are spread to their limits
 constexpr double kMostVolume = 1.4;  // of a surface, bent, to what it is at rest; and the least the other way round
 
 // Frames of all joints with one turned by `pose`.
@@ -99,12 +99,13 @@ class Surface {
     }));
   }
 
-  // The greatest jump of the normal, in degrees, between patches at each of whose corners four meet.
-  double jump(const std::vector<wire::Patch>& now) const {
+  // The greatest jump of the normal, in degrees, between sides at both of whose ends four patches meet: where they do
+  // so at the other corners of both patches, or do not.
+  double jump(const std::vector<wire::Patch>& now, bool at_other_corners) const {
     double most = 0;
     for (const Join& join : joins_) {
       if (corners_.at(join.from) != 4 || corners_.at(join.to) != 4) continue;
-      if (!is_regular_[join.one.patch] || !is_regular_[join.other.patch]) continue;
+      if ((is_regular_[join.one.patch] && is_regular_[join.other.patch]) != at_other_corners) continue;
       most = std::max(most, degrees_between(normal_on(now[join.one.patch], join.one.side, 0.4),
                                             normal_on(now[join.other.patch], join.other.side, 0.6)));
     }
@@ -231,8 +232,9 @@ void check(const Model& model, const Skin& skin, const std::vector<Axes>& frames
   const std::vector<wire::Patch> now = skinned.patches_of(*model.shapes[skin.joint->segment->shape].net);
   EXPECT_LT(beyond(bounds_of(model, *skin.joint, skinned), now), 1e-5) << pose;
   EXPECT_EQ(skin.surface.cracks(now), 0u) << pose;
-  EXPECT_LT(skin.surface.jump(now), kSmooth) << pose;
-  EXPECT_LT(skin.surface.jump_anywhere(now), is_of_finger ? kBetween : kAnywhere) << pose;
+  EXPECT_LT(skin.surface.jump(now, true), kSmooth) << pose;
+  EXPECT_LT(skin.surface.jump(now, false), kAnywhere) << pose;
+  EXPECT_LT(skin.surface.jump_anywhere(now), is_of_finger ? kInWebs : kAnywhere) << pose;
   const double volume = skin.surface.volume(now) / skin.volume;
   EXPECT_GT(volume, 1 / kMostVolume) << pose;
   EXPECT_LT(volume, kMostVolume) << pose;
