@@ -72,7 +72,7 @@ void check_text(const document::LongText& text, const ImportOptions& options) {
     const std::size_t element = failure.where.find(": ", std::min(file.size(), failure.where.size()));
     throw Failure(std::string("makes a ") + (is_film ? "film" : "model") + " that MARS refuses: " +
                       (element == std::string::npos ? "" : failure.where.substr(element + 2) + " ") + failure.problem,
-                  file, "make it larger or smaller with --scale, or mend it in the program that made it");
+                  file, failure.remedy + "; --scale makes it larger or smaller");
   }
 }
 

@@ -80,8 +80,8 @@ void refuse_extensions(const std::filesystem::path& path, const Tree& required) 
   constexpr const char* kPacked = "KHR_meshopt_compression";
   if (std::find(required.begin(), required.end(), kPacked) != required.end())
     throw Failure(std::string("has its shapes packed as ") + kPacked, path.string(),
-                  "export it with EXT_meshopt_compression or Draco's compression, or unpack it: gltf-transform "
-                  "dequantize in.glb out.glb");
+                  "export it with EXT_meshopt_compression or Draco's compression, or unpack it: gltfpack -noq "
+                  "-i in.glb -o out.glb");
 }
 
 std::size_t triangles_of(const Tree& primitive, const Tree& accessors) {

@@ -7,7 +7,7 @@ std::string meshopt_unpacked(const std::filesystem::path& path, const MeshoptVie
   throw Failure(
       "is packed as EXT_meshopt_compression, and this MARS was built without meshoptimizer", path.string(),
       "run ./bootstrap, which installs it (Debian: libmeshoptimizer-dev) and builds MARS again; or unpack the "
-      "file: gltf-transform dequantize in.glb out.glb");
+      "file: gltfpack -noq -i in.glb -o out.glb");
 }
 
 }  // namespace mars::importer

@@ -92,6 +92,8 @@ class Unpacker {
     const Tree before = gltf_;
     const GltfBuffers buffers(path_, bytes, before, "a mesh");
     for (const std::size_t index : accessors) {
+      if (at(before["accessors"][index], "bufferView").is_null() && at(before["accessors"][index], "sparse").is_null())
+        fail("has numbers that are quantized and packed by Draco, which MARS does not read together");
       const GltfNumbers numbers = buffers.read_quantized(index);
       std::string floats;
       for (const double number : numbers.numbers)
@@ -116,7 +118,7 @@ class Unpacker {
 
  private:
   [[noreturn]] void fail(const std::string& problem) const {
-    throw Failure(problem, path_.string(), "export it again, or unpack it: gltf-transform dequantize in.glb out.glb");
+    throw Failure(problem, path_.string(), "export it again, or unpack it: gltfpack -noq -i in.glb -o out.glb");
   }
 
   // The number of `word` among `words`; 0 where the file does not have it.
