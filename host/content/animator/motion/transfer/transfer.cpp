@@ -18,6 +18,7 @@
 #include "host/content/animator/motion/transfer/matching.h"
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/attachments.h"
 #include "node/wire/film.h"
 
 namespace mars::motion {
@@ -111,6 +112,7 @@ class Transfer {
         at_(at),
         matching_(match_joints(from_.model(), to_.model())),
         start_(to_.at(at)) {
+    animator::refuse_carried(film, film.actors[actor], at, "actor '" + film.actors[actor].name + "'");
     if (matching_.joints.empty())
       throw Failure("has no joint that stands for one of '" + source.film.actors[source.actor].name + "'",
                     "actor '" + film.actors[actor].name + "'",
