@@ -255,7 +255,7 @@ void move_fingers(const Fingers& from, const Fingers& to, double first, double l
     blend(from, to, smooth(first, std::max(last, first + 1e-9), double(i)), postures[i]);
 }
 
-// The hand stays where it is for so many frames, while its fingers move.
+// The hand stays where it is for `frames` frames, while its fingers move.
 void wait(Rehearsal& rehearsal, const Body& body, const Fingers& from, const Fingers& to, int frames,
           const Posture& posture) {
   if (frames == 0) return;
@@ -317,7 +317,7 @@ Motion pick(const Scene& scene) {
       timing = needed;
       continue;
     }
-    timing = needed;
+    if (needed.down == timing.down) timing = needed;
     const Posture start = posture_of(scene);
     const Fingers now = fingers_in(digits, start), open = open_fingers(*body.model, digits, start);
     Rehearsal rehearsal(scene);
