@@ -1,5 +1,3 @@
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
@@ -36,7 +34,7 @@ constexpr const char* kPrefix = "mars-thumbnails-";
 constexpr const char* kSize = "320x320";      // of the pictures
 constexpr std::uintmax_t kLargest = 1 << 20;  // bytes of one
 constexpr child::ProcessLimits kLimits{30s, std::uint64_t{8} << 30};
-constexpr int kBehindAllElse = 10;  // a priority: a tenth of the others' time where processors are busy
+constexpr int kBehindAllElse = 10;  // a niceness: a tenth of the others' time where processors are busy
 constexpr int kLooks = 10;          // calls of look() between two looks at the folder
 
 class LiveThumbnails final : public Thumbnails {
@@ -150,9 +148,8 @@ void LiveThumbnails::draw(const ListedModel& model) {
       [&](const child::ProcessSetup& setup) {
         child::ProcessSetup limited = setup;
         limited.limits = kLimits;
-        auto process = std::make_unique<child::Process>(child::Command{{}, words}, limited);
-        setpriority(PRIO_PGRP, static_cast<id_t>(process->id()), kBehindAllElse);
-        return process;
+        limited.niceness = kBehindAllElse;
+        return std::make_unique<child::Process>(child::Command{{}, words}, limited);
       },
       0s,
       HostProcess::Listener{
