@@ -1,10 +1,8 @@
-#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <deque>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -60,7 +58,7 @@ class LiveThumbnails final : public Thumbnails {
   };
 
   void send_models(PageNumber page);
-  void tell_models(PageNumber page) const;
+  void send_list(PageNumber page) const;
   void ask(PageNumber page, const std::string& name);
   void draw_next();
   void draw(const ListedModel& model);
@@ -85,10 +83,10 @@ class LiveThumbnails final : public Thumbnails {
 void LiveThumbnails::send_models(PageNumber page) {
   list_.look();
   pages_.insert(page);
-  tell_models(page);
+  send_list(page);
 }
 
-void LiveThumbnails::tell_models(PageNumber page) const {
+void LiveThumbnails::send_list(PageNumber page) const {
   Json models = Json::array();
   for (const ListedModel& each : list_.models())
     models.push_back({{"name", each.name}, {"what", each.what}, {"kind", each.kind}, {"version", each.version}});
@@ -114,7 +112,7 @@ void LiveThumbnails::page_closed(PageNumber page) {
 
 void LiveThumbnails::look(bool at_rest) {
   if (!pages_.empty() && ++looks_ % kLooks == 0 && list_.look())
-    for (const PageNumber page : pages_) tell_models(page);
+    for (const PageNumber page : pages_) send_list(page);
   if (at_rest && !process_ && !due_.empty()) draw_next();
 }
 
@@ -158,7 +156,7 @@ void LiveThumbnails::draw(const ListedModel& model) {
 }
 
 fs::path LiveThumbnails::file_of(const ListedModel& model) const {
-  if (model.kind == "file") return settings_.file.parent_path() / model.name;
+  if (model.kind == "file") return fs::path(".") / settings_.file.parent_path() / model.name;  // no option: "-a.json"
   const fs::path file = folder_->path() / (model.name + ".json");
   document::write_whole_file(file, modeler::library_figure(model.name).dump());
   return file;
@@ -168,6 +166,8 @@ void LiveThumbnails::drawn(const ListedModel& model, const child::Ending& ending
   // It calls us, and goes when it is done with that.
   asio::post(context_, [process = std::shared_ptr<HostProcess>(std::move(process_))] {});
   const auto folder = std::exchange(folder_, nullptr);
+  if (const ListedModel* const now = list_.find(model.name); now != nullptr && now->version != model.version)
+    return due_.push_front(model.name);  // it has changed meanwhile
   const std::string why = !reason.empty() ? reason : ending.signal != 0 ? "takes too long to draw" : "cannot be drawn";
   if (!ending.well()) return settle(model.name, {model.version, "", why});
   try {
