@@ -264,6 +264,16 @@ void wait(Rehearsal& rehearsal, const Body& body, const Fingers& from, const Fin
   add(rehearsal, body, from, postures);
 }
 
+// The thing moves along with the joint from the frame on.
+void attach_to(std::size_t joint, std::size_t thing, std::uint32_t frame, const Scene& scene, Rehearsal& rehearsal) {
+  const std::size_t figure = std::size_t(&scene.actor - scene.film.actors.data());
+  animator::JointFrames frames(rehearsal.film());
+  const modeler::Axes held = animator::seen_from(frames.frame_of(figure, joint, frame), frames.root_of(thing, frame));
+  rehearsal.attach(thing, frame,
+                   {scene.actor.name, scene.model().joints[joint].name, animator::rounded(held.place),
+                    animator::rounded(canonical_degrees(held.turn))});
+}
+
 }  // namespace
 
 std::span<const Parameter> pick_parameters() { return kPick; }
@@ -326,21 +336,14 @@ Motion pick(const Scene& scene) {
     const Solid thing(scene.film, what->actor, contact, frame_in(*body.model, there.back(), hand.end));
     const Fingers closed = closed_fingers(*body.model, digits, hand.end, start, thing);
     add(rehearsal, body, now, there);
-    const std::string joint = body.joint_name(hand.end);
-    const std::size_t figure = std::size_t(&scene.actor - scene.film.actors.data());
-    animator::JointFrames frames(rehearsal.film());
-    const modeler::Axes held =
-        animator::seen_from(frames.frame_of(figure, hand.end, contact), frames.root_of(what->actor, contact));
-    rehearsal.attach(
-        what->actor, contact,
-        {scene.actor.name, joint, animator::rounded(held.place), animator::rounded(canonical_degrees(held.turn))});
+    attach_to(hand.end, what->actor, contact, scene, rehearsal);
     wait(rehearsal, body, open, closed, timing.wait, there.back());
     std::vector<Posture> back = handling.back(timing.up, with(body, start, carrying(body, hand)));
-    move_fingers(closed, closed, 0, 0, back);
+    for (Posture& posture : back) blend(closed, closed, 1, posture);
     add(rehearsal, body, now, back);
     Motion motion = rehearsal.take();
-    motion.report =
-        "takes '" + scene.film.actors[what->actor].name + "' with '" + joint + "' at frame " + std::to_string(contact);
+    motion.report = "takes '" + scene.film.actors[what->actor].name + "' with '" + body.joint_name(hand.end) +
+                    "' at frame " + std::to_string(contact);
     return motion;
   }
 }
