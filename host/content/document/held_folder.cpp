@@ -17,6 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kHeld = ".held";
+constexpr const char* kNotYetHeld = ".held.new";
 
 bool is_own_folder(const fs::path& path) {
   struct stat found {};
@@ -37,8 +38,11 @@ HeldFolder::HeldFolder(const fs::path& beside, const std::string& prefix) {
   std::string name = (beside / (prefix + "XXXXXX")).string();
   if (mkdtemp(name.data()) == nullptr) fail_file("make a folder in", beside, errno);
   path_ = name;
-  held_ = open((path_ / kHeld).c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-  if (held_ >= 0) flock(held_, LOCK_EX | LOCK_NB);
+  held_ = open((path_ / kNotYetHeld).c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+  if (held_ < 0) return;
+  flock(held_, LOCK_EX | LOCK_NB);
+  std::error_code ignored;
+  fs::rename(path_ / kNotYetHeld, path_ / kHeld, ignored);  // free under this name, it would be removed
 }
 
 HeldFolder::~HeldFolder() {
