@@ -44,6 +44,7 @@ bool set_up(const ProcessSetup& setup, pid_t parent, std::vector<int>& sources) 
     if ((sources[i] = fcntl(setup.streams[i].descriptor, F_DUPFD_CLOEXEC, kFree)) < 0) return false;
   for (std::size_t i = 0; i < setup.streams.size(); ++i)
     if (dup2(sources[i], setup.streams[i].number) < 0) return false;
+  if (setup.niceness != 0) setpriority(PRIO_PROCESS, 0, setup.niceness);
   if (setup.limits) {
     lower_limit(RLIMIT_CORE, 0);
     lower_limit(RLIMIT_CPU, static_cast<std::uint64_t>(setup.limits->processor_time.count()));

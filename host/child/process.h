@@ -38,6 +38,7 @@ struct ProcessSetup {
   bool own_group = false;                 // it leads a process group
   int signal_at_our_end = 0;              // it gets when this thread ends, however it ends; 0: none
   std::vector<int> default_signals{};     // that act on it as usual, though we may ignore them
+  int niceness = 0;                       // from which its program begins; 0: ours
   std::optional<ProcessLimits> limits{};  // with these it leaves no core file either
 };
 

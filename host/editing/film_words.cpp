@@ -74,12 +74,12 @@ void run_add_of_film(const FilmWords& words) {
     return words.film.name_of_model((std::filesystem::path(words.from).parent_path() / file).string());
   };
   std::string length, rates;
-  words.film.change([&](Json& film, const Meaning&) {
-    const auto last = animator::add_actor_of(film, other.json, words.name, file_name);
+  words.film.change([&](Json& film, const Meaning& meaning) {
+    const double from = other.film.rate, to = meaning.rate;
+    const auto last = animator::add_actor_of(film, other.json, words.name, to / from, file_name);
     length = last ? fit_length(film, *last, words.lengthen) : "";
     if (last && !length.empty())
       length += ": set its frames to " + std::to_string(*last + 1) + " to see all of the keys";
-    const double from = animator::rate_of(other.json), to = animator::rate_of(film);
     if (last && from != to)
       rates = "keys of " + document::shown(from) + " frames a second are at those of " + document::shown(to) + " now";
   });

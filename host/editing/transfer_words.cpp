@@ -7,6 +7,7 @@
 #include "host/content/animator/keys/frame_words.h"
 #include "host/content/animator/keys/reduce.h"
 #include "host/content/animator/motion/transfer/transfer.h"
+#include "host/content/animator/pose/attachments.h"
 #include "host/content/animator/pose/within_limits.h"
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/document/text.h"
@@ -112,7 +113,7 @@ void transfer(EditedFilm& film, const TransferWords& words) {
   film.change([&](document::Json& json, const animator::Film& meaning) {
     animator::actor_of(json, words.actor);  // refuses what is no actor
     const auto actor = std::ranges::find(meaning.actors, words.actor, &animator::Actor::name);
-    const std::uint32_t at = words.at.value_or(animator::last_key(actor->motion));
+    const std::uint32_t at = words.at.value_or(animator::last_key(*actor));
     const auto done = motion::transfer_motion(source, meaning, std::size_t(actor - meaning.actors.begin()), at);
     put_motion(json, words.actor, done);
     report = report_of(done, other.film, meaning) + reduced(json, meaning, words, done);

@@ -40,8 +40,7 @@ class Studio {
   void page_closed(PageNumber page);
   // A file that a page begins to send. Throws Failure where no import waits for it.
   std::unique_ptr<Upload> upload(const UploadedFile& file) { return importing_->upload(file); }
-  // Somebody else may have changed the files; and there may be time for what nobody waits for. Called a few times a
-  // second.
+  // Somebody else may have changed the files; and there may be time for thumbnails. Called a few times a second.
   void look_at_files();
 
  private:

@@ -78,6 +78,11 @@ Limbs::Limbs() {
   for (auto& side : sides) side.fill(kNone);
 }
 
+bool Limbs::has(std::size_t joint) const {
+  const auto is_in = [&](const auto& list) { return std::find(list.begin(), list.end(), joint) != list.end(); };
+  return is_in(trunk) || is_in(sides[0]) || is_in(sides[1]);
+}
+
 Limbs read_limbs(const document::Element& element, std::span<const Joint> joints) {
   return LimbReader(joints).read(element);
 }

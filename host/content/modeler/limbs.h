@@ -30,6 +30,7 @@ struct Limbs {
   std::size_t of(Limb limb, Side side) const {
     return sides[static_cast<std::size_t>(side)][static_cast<std::size_t>(limb)];
   }
+  bool has(std::size_t joint) const;
 };
 
 // A name must be one of the joints', none named twice, and each limb hang below the one before it.

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
+#include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
 #include "host/content/importer/file_kind.h"
@@ -95,6 +96,9 @@ std::vector<Companion> missing_companions(const UploadFolder& folder, const Impo
       const fs::path wanted = fs::path(job.main).parent_path() / each.name;
       const bool is_known = std::ranges::find(missing, wanted.string(), &Companion::name) != missing.end();
       if (!importer::stays_inside(each.name) || is_known || is_there(folder, request, wanted)) continue;
+      if (missing.size() == kMostImportedFiles)
+        throw Failure("names over " + std::to_string(kMostImportedFiles) + " files that did not come",
+                      document::printable(job.main), "import them together, in one folder");
       each.name = wanted.string();
       missing.push_back(std::move(each));
     }

@@ -17,7 +17,7 @@ struct Companion {
 
 // Buffers of glTF files and pictures of their colours, colours of OBJ files, skeletons of AMC files. A file that came
 // under the right name in another folder is put to where it belongs. Files of over 1 MiB are not looked at: their
-// reader says what they lack.
+// reader says what they lack. Throws Failure where more are missing than one import takes.
 std::vector<Companion> missing_companions(const UploadFolder& folder, const ImportRequest& request,
                                           const std::vector<ImportJob>& jobs);
 

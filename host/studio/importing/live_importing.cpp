@@ -183,8 +183,10 @@ void LiveImporting::begin(PageNumber page, const Json& message) {
 void LiveImporting::take_more(PageNumber page, const Json& message) {
   if (!import_ || import_->page != page || import_->missing.empty()) throw Failure("no import waits for files", "", "");
   if (message.at("files").empty()) return attempt([this] { run_next(); });
-  add_files(import_->request, message);
-  import_->jobs = import_jobs(import_->request.files);
+  ImportRequest request = import_->request;
+  add_files(request, message);
+  import_->jobs = import_jobs(request.files);
+  import_->request = std::move(request);
   import_->begun.resize(import_->request.files.size());
   import_->missing.clear();
   tell("receiving", Json::object());

@@ -1,12 +1,8 @@
-#include <sys/resource.h>
-
-#include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <deque>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -36,7 +32,7 @@ constexpr const char* kPrefix = "mars-thumbnails-";
 constexpr const char* kSize = "320x320";      // of the pictures
 constexpr std::uintmax_t kLargest = 1 << 20;  // bytes of one
 constexpr child::ProcessLimits kLimits{30s, std::uint64_t{8} << 30};
-constexpr int kBehindAllElse = 10;  // a priority: a tenth of the others' time where processors are busy
+constexpr int kBehindAllElse = 10;  // a niceness: a tenth of the others' time where processors are busy
 constexpr int kLooks = 10;          // calls of look() between two looks at the folder
 
 class LiveThumbnails final : public Thumbnails {
@@ -62,7 +58,7 @@ class LiveThumbnails final : public Thumbnails {
   };
 
   void send_models(PageNumber page);
-  void tell_models(PageNumber page) const;
+  void send_list(PageNumber page) const;
   void ask(PageNumber page, const std::string& name);
   void draw_next();
   void draw(const ListedModel& model);
@@ -87,10 +83,10 @@ class LiveThumbnails final : public Thumbnails {
 void LiveThumbnails::send_models(PageNumber page) {
   list_.look();
   pages_.insert(page);
-  tell_models(page);
+  send_list(page);
 }
 
-void LiveThumbnails::tell_models(PageNumber page) const {
+void LiveThumbnails::send_list(PageNumber page) const {
   Json models = Json::array();
   for (const ListedModel& each : list_.models())
     models.push_back({{"name", each.name}, {"what", each.what}, {"kind", each.kind}, {"version", each.version}});
@@ -116,7 +112,7 @@ void LiveThumbnails::page_closed(PageNumber page) {
 
 void LiveThumbnails::look(bool at_rest) {
   if (!pages_.empty() && ++looks_ % kLooks == 0 && list_.look())
-    for (const PageNumber page : pages_) tell_models(page);
+    for (const PageNumber page : pages_) send_list(page);
   if (at_rest && !process_ && !due_.empty()) draw_next();
 }
 
@@ -150,9 +146,8 @@ void LiveThumbnails::draw(const ListedModel& model) {
       [&](const child::ProcessSetup& setup) {
         child::ProcessSetup limited = setup;
         limited.limits = kLimits;
-        auto process = std::make_unique<child::Process>(child::Command{{}, words}, limited);
-        setpriority(PRIO_PGRP, static_cast<id_t>(process->id()), kBehindAllElse);
-        return process;
+        limited.niceness = kBehindAllElse;
+        return std::make_unique<child::Process>(child::Command{{}, words}, limited);
       },
       0s,
       HostProcess::Listener{
@@ -161,7 +156,7 @@ void LiveThumbnails::draw(const ListedModel& model) {
 }
 
 fs::path LiveThumbnails::file_of(const ListedModel& model) const {
-  if (model.kind == "file") return settings_.file.parent_path() / model.name;
+  if (model.kind == "file") return fs::path(".") / settings_.file.parent_path() / model.name;  // no option: "-a.json"
   const fs::path file = folder_->path() / (model.name + ".json");
   document::write_whole_file(file, modeler::library_figure(model.name).dump());
   return file;
@@ -171,6 +166,8 @@ void LiveThumbnails::drawn(const ListedModel& model, const child::Ending& ending
   // It calls us, and goes when it is done with that.
   asio::post(context_, [process = std::shared_ptr<HostProcess>(std::move(process_))] {});
   const auto folder = std::exchange(folder_, nullptr);
+  if (const ListedModel* const now = list_.find(model.name); now != nullptr && now->version != model.version)
+    return due_.push_front(model.name);  // it has changed meanwhile
   const std::string why = !reason.empty() ? reason : ending.signal != 0 ? "takes too long to draw" : "cannot be drawn";
   if (!ending.well()) return settle(model.name, {model.version, "", why});
   try {

@@ -1,9 +1,7 @@
 #include "host/studio/models/model_list.h"
 
 #include <algorithm>
-#include <optional>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "host/content/document/file.h"

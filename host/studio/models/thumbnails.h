@@ -29,7 +29,7 @@ class Thumbnails {
   // Such a message. Throws Failure where it names no model of the list.
   virtual void take(PageNumber page, const Json& message) = 0;
   virtual void page_closed(PageNumber page) = 0;
-  // Called a few times a second; `at_rest`: no page has moved anything since.
+  // Called a few times a second; `at_rest`: no page has moved anything since the call before.
   virtual void look(bool at_rest) = 0;
 };
 

@@ -58,6 +58,17 @@ TEST_F(OtherFilm, SaysWhoseMotionIsMeant) {
             std::string::npos);
 }
 
+TEST_F(OtherFilm, ACarriedActorIsDetachedFirst) {
+  edit(json_, {"film", "add", "cart", "--model", "box"});
+  edit(json_, {"animate", "attach", "anna", "--to", "cart", "--frame", "6"});
+  const Command words{"animate", "motion", "anna", "--from", "walk.json", "--actor", "tom", "--lengthen"};
+  EXPECT_NE(document::failure_of([&] { edit(json_, words); }).find("is carried by 'cart' at frame 6"),
+            std::string::npos);
+  edit(json_, {"animate", "detach", "anna", "--frame", "8"});
+  edit(json_, words);  // from the frame at which it is detached
+  EXPECT_EQ(document::failure_of([&] { edit(json_, {"animate", "check"}); }), "");
+}
+
 // Places of motion that is keyed at each frame are where they are at that time.
 TEST_F(OtherFilm, KeysOfAnActorKeepTheirTimes) {
   const Done done = edit(json_, {"film", "add", "ball", "--from", "walk.json", "--lengthen"});

@@ -2,12 +2,21 @@
 
 #include <algorithm>
 
+#include "hal/failure/failure.h"
+
 namespace mars::animator {
 
 const Attachment* attachment_at(const Actor& actor, std::uint32_t frame) {
   if (actor.attach.empty() || frame < actor.attach.front().frame) return nullptr;
   const auto& held = actor.attach[stretch_at(actor.attach, frame).from].value;
   return held ? &*held : nullptr;
+}
+
+void refuse_carried(const Film& film, const Actor& actor, std::uint32_t frame, const std::string& where) {
+  const Attachment* const carrier = attachment_at(actor, frame);
+  if (carrier != nullptr)
+    throw Failure("is carried by '" + film.actors[carrier->actor].name + "' at frame " + std::to_string(frame), where,
+                  "detach it there first");
 }
 
 std::uint32_t last_key(const Actor& actor) {

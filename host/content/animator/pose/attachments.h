@@ -16,6 +16,10 @@ inline constexpr std::size_t kLongestChain = 1000;
 // Null where the actor stands by its own keys.
 const Attachment* attachment_at(const Actor& actor, std::uint32_t frame);
 
+// Throws Failure if something carries the actor at the frame: numbers of its place and turn then mean another frame of
+// reference. `where`: of the message.
+void refuse_carried(const Film& film, const Actor& actor, std::uint32_t frame, const std::string& where);
+
 // The last frame at which the actor has a key of anything but matrices; 0 if it has none.
 std::uint32_t last_key(const Actor& actor);
 

@@ -122,8 +122,6 @@ bool stands_elsewhere(const Json& model, const std::string& name) {
 
 }  // namespace
 
-double rate_of(const Json& film) { return film.value("rate", 24.0); }
-
 bool is_model_file(const Json& film, const std::string& model) {
   const bool known = film.at("models").contains(model) || modeler::find_in_library(model) != nullptr;
   return !known && std::filesystem::path(model).extension() == ".json";
@@ -141,7 +139,7 @@ void add_actor(Json& film, const NewActor& actor) {
   film = std::move(changed);
 }
 
-std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const std::string& name,
+std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const std::string& name, double rates,
                                           const std::function<std::string(const std::string& file)>& file_name) {
   refuse_taken(film, name);
   Json actor = actor_to_take(other, name);
@@ -151,7 +149,7 @@ std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const s
   Json changed = film;
   actor["name"] = name;
   actor["model"] = put_model(changed, model, named);
-  if (rate_of(other) != rate_of(film)) retime_actor(actor, rate_of(film) / rate_of(other));
+  if (rates != 1) retime_actor(actor, rates);
   std::optional<std::uint32_t> last;
   for (const char* list : {"keys", "matrices"})
     for (const Json& key : actor.value(list, Json::array()))

@@ -26,13 +26,12 @@ bool is_model_file(const document::Json& film, const std::string& model);
 // What is of the library becomes the film's own model, by its name; of a height of its own, by the actor's.
 void add_actor(document::Json& film, const NewActor& actor);
 
-// Frames a second.
-double rate_of(const document::Json& film);
-
 // An actor of another film with its model and its keys, under a name of its own: the other film's actor of this name,
-// or its only one. Where that film has another rate, its keys keep their times (retime.h). `file_name`: how this film
-// names a model file that the other one names. Returns the last frame of the keys; none: it has none.
+// or its only one. `rates`: this film's rate by the other one's, so that the keys keep their times (retime.h).
+// `file_name`: how this film names a model file that the other one names. Returns the last frame of the keys; none: it
+// has none.
 std::optional<std::uint32_t> add_actor_of(document::Json& film, const document::Json& other, const std::string& name,
+                                          double rates,
                                           const std::function<std::string(const std::string& file)>& file_name);
 
 // Refuses where something is attached to it or the camera follows it. A model that nothing else uses goes too, unless

@@ -5,6 +5,7 @@
 
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/tracks.h"
+#include "node/wire/film.h"
 
 namespace mars::animator {
 namespace {
@@ -56,7 +57,8 @@ Track retimed(const Track& track, double factor) {
   Track all;
   for (std::size_t number = 0; number < track.size(); ++number) {
     TrackKey key = track[number];
-    key.frame = static_cast<std::uint32_t>(std::llround(key.frame * factor));
+    // A frame that no film has is refused when the film is read.
+    key.frame = static_cast<std::uint32_t>(std::min(std::round(key.frame * factor), wire::kMostFrames + 1.0));
     key.value = value_there(track, number, key.frame / factor);
     scale(key.in, 1 / factor);
     scale(key.out, 1 / factor);

@@ -42,6 +42,7 @@ class BesideBody {
 
   // Degrees that the widest band needs.
   double degrees() const {
+    if (length_ <= 0) return 0;
     const Bands body = widths_of_body(), arm = widths_of_arm();
     double most = 0;
     for (std::size_t band = 0; band < kBands; ++band) {

@@ -218,8 +218,7 @@ std::vector<std::size_t> Body::between() const {
     for (std::size_t joint = model->joints[end].parent; joint != pelvis; joint = model->joints[joint].parent)
       all.push_back(joint);
   }
-  const std::vector<std::size_t> limbs = limbs_of(*model);
-  std::erase_if(all, [&](std::size_t joint) { return std::find(limbs.begin(), limbs.end(), joint) != limbs.end(); });
+  std::erase_if(all, [&](std::size_t joint) { return model->limbs.has(joint); });
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
   return all;

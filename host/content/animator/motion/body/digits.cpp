@@ -36,13 +36,13 @@ class FindingDigits {
  public:
   FindingDigits(const modeler::Model& model, const Hand& hand, const glm::dvec3& thing)
       : model_(model), hand_(hand), drawn_(drawn_posture(model)), thing_(place(hand.end) + thing) {
-    const auto is_below = [&](std::size_t joint) { return modeler::is_at_or_below(model.joints, joint, hand.end); };
     for (std::size_t joint = 0; joint < model.joints.size(); ++joint)
-      if (is_below(joint)) {
-        std::vector<glm::dvec3>& points = points_[joint];
-        points = points_of(model, drawn_, [&](std::size_t each) { return each == joint; });
-        for (glm::dvec3& point : points) point -= place(joint);
-      }
+      if (modeler::is_at_or_below(model.joints, joint, hand.end)) points_[joint];
+    const Surface surface = surface_of(
+        model, [&](std::size_t joint) { return frame_in(model, drawn_, joint); }, kCoarseGrid);
+    for (const SurfacePoint& point : surface.points)
+      if (const auto below = points_.find(point.joint); below != points_.end())
+        below->second.push_back(point.place - place(point.joint));
     rows_ = rows();
   }
 
@@ -113,7 +113,8 @@ class FindingDigits {
   }
 
   Digit digit_of(const Row& row, bool is_thumb, const glm::dvec3& inward) const {
-    const glm::dvec3 root = place(row.joints[0]), way = glm::normalize(row.tip - root);
+    const glm::dvec3 root = place(row.joints[0]), whole = row.tip - root;
+    const glm::dvec3 way = glm::length(whole) > 1e-9 ? glm::normalize(whole) : hand_.fingers;
     const glm::dvec3 across = glm::cross(way, is_thumb ? thing_ - root : inward);
     const glm::dvec3 hinge = glm::normalize(glm::length(across) > 1e-9 ? across : glm::cross(way, hand_.palm));
     Digit digit;
@@ -158,7 +159,7 @@ class FindingDigits {
     return phalanx;
   }
 
-  // Along the bone, which is so long; 0: as far as the surface.
+  // Along the bone; `length`: the bone's, or 0: as far as the surface.
   std::vector<Pad> pads_of(std::size_t joint, const glm::dvec3& along, const glm::dvec3& inside, double length) const {
     const std::vector<glm::dvec3>& points = points_.at(joint);
     if (length <= 0)

@@ -32,8 +32,8 @@ struct Digit {
 // bends towards `thing`, a place in the frame of the hand's end, other fingers towards the palm.
 std::vector<Digit> digits_of(const modeler::Model& model, const Hand& hand, const glm::dvec3& thing);
 
-// The numbers of a phalanx' joint that is bent by so many degrees from how it is drawn. Numbers about other axes than
-// its own hinge stay as they are.
+// The numbers of a phalanx' joint that is bent from how it is drawn. Numbers about other axes than its own hinge stay
+// as they are `now`.
 glm::dvec3 bent(const modeler::Model& model, const Phalanx& phalanx, double degrees, const glm::dvec3& now);
 
 }  // namespace mars::motion

@@ -10,8 +10,6 @@
 namespace mars::motion {
 namespace {
 
-constexpr int kGrid = 4;  // points along each side of a patch, of which a sole's shape is known
-
 glm::dvec3 patch_point(const wire::Patch& patch, double u, double v) {
   const auto weights = [](double t) {
     const double r = 1 - t;
@@ -123,7 +121,7 @@ class SurfaceOf {
 // Points that move with joints that count.
 Surface surface_in(const modeler::Model& model, const Posture& posture, const Counts& counts) {
   const std::function frame_of = [&](std::size_t joint) { return frame_in(model, posture, joint); };
-  Surface surface = SurfaceOf(model, frame_of, kGrid, counts).made();
+  Surface surface = SurfaceOf(model, frame_of, kCoarseGrid, counts).made();
   std::erase_if(surface.points, [&](const SurfacePoint& point) { return !counts(point.joint); });
   surface.triangles.clear();
   return surface;

@@ -20,6 +20,8 @@ struct Surface {
   std::vector<modeler::Mesh::Triangle> triangles;
 };
 
+inline constexpr int kCoarseGrid = 4;  // points along each side of a patch, of which the shape of soles is known
+
 // With joints in these frames. Patches give `grid` points along each side, 2 or more.
 Surface surface_of(const modeler::Model& model, const std::function<modeler::Axes(std::size_t joint)>& frame_of,
                    int grid);

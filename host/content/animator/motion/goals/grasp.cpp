@@ -20,9 +20,10 @@ class Closing {
       : model_(model), phalanges_(digit.phalanges), hand_(hand), now_(now), thing_(thing) {
     for (const Phalanx& phalanx : phalanges_) bends_.push_back(phalanx.open);
     is_still_.assign(phalanges_.size(), false);
+    const std::vector<modeler::Axes> at = frames();
     for (std::size_t i = 0; i < phalanges_.size(); ++i)
       for (const Pad& pad : phalanges_[i].pads)
-        if (thing_.holds(placed(frames()[i], pad.middle))) hold(i);
+        if (thing_.holds(placed(at[i], pad.middle))) hold(i);
   }
 
   void close() {

@@ -255,13 +255,23 @@ void move_fingers(const Fingers& from, const Fingers& to, double first, double l
     blend(from, to, smooth(first, std::max(last, first + 1e-9), double(i)), postures[i]);
 }
 
-// The hand stays where it is for so many frames, while its fingers move.
+// The hand stays where it is for `frames` frames, while its fingers move.
 void wait(Rehearsal& rehearsal, const Body& body, const Fingers& from, const Fingers& to, int frames,
           const Posture& posture) {
   if (frames == 0) return;
   std::vector<Posture> postures(static_cast<std::size_t>(frames) + 1, posture);
   move_fingers(from, to, 0, frames, postures);
   add(rehearsal, body, from, postures);
+}
+
+// The thing moves along with the joint from the frame on.
+void attach_to(std::size_t joint, std::size_t thing, std::uint32_t frame, const Scene& scene, Rehearsal& rehearsal) {
+  const std::size_t figure = std::size_t(&scene.actor - scene.film.actors.data());
+  animator::JointFrames frames(rehearsal.film());
+  const modeler::Axes held = animator::seen_from(frames.frame_of(figure, joint, frame), frames.root_of(thing, frame));
+  rehearsal.attach(thing, frame,
+                   {scene.actor.name, scene.model().joints[joint].name, animator::rounded(held.place),
+                    animator::rounded(canonical_degrees(held.turn))});
 }
 
 }  // namespace
@@ -317,7 +327,7 @@ Motion pick(const Scene& scene) {
       timing = needed;
       continue;
     }
-    timing = needed;
+    if (needed.down == timing.down) timing = needed;
     const Posture start = posture_of(scene);
     const Fingers now = fingers_in(digits, start), open = open_fingers(*body.model, digits, start);
     Rehearsal rehearsal(scene);
@@ -326,21 +336,14 @@ Motion pick(const Scene& scene) {
     const Solid thing(scene.film, what->actor, contact, frame_in(*body.model, there.back(), hand.end));
     const Fingers closed = closed_fingers(*body.model, digits, hand.end, start, thing);
     add(rehearsal, body, now, there);
-    const std::string joint = body.joint_name(hand.end);
-    const std::size_t figure = std::size_t(&scene.actor - scene.film.actors.data());
-    animator::JointFrames frames(rehearsal.film());
-    const modeler::Axes held =
-        animator::seen_from(frames.frame_of(figure, hand.end, contact), frames.root_of(what->actor, contact));
-    rehearsal.attach(
-        what->actor, contact,
-        {scene.actor.name, joint, animator::rounded(held.place), animator::rounded(canonical_degrees(held.turn))});
+    attach_to(hand.end, what->actor, contact, scene, rehearsal);
     wait(rehearsal, body, open, closed, timing.wait, there.back());
     std::vector<Posture> back = handling.back(timing.up, with(body, start, carrying(body, hand)));
-    move_fingers(closed, closed, 0, 0, back);
+    for (Posture& posture : back) blend(closed, closed, 1, posture);
     add(rehearsal, body, now, back);
     Motion motion = rehearsal.take();
-    motion.report =
-        "takes '" + scene.film.actors[what->actor].name + "' with '" + joint + "' at frame " + std::to_string(contact);
+    motion.report = "takes '" + scene.film.actors[what->actor].name + "' with '" + body.joint_name(hand.end) +
+                    "' at frame " + std::to_string(contact);
     return motion;
   }
 }

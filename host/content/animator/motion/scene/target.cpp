@@ -13,8 +13,6 @@
 namespace mars::motion {
 namespace {
 
-constexpr int kGridOfSkin = 4;  // points along each side of a patch
-
 glm::dvec3 corner(const wire::Matrix& matrix, int number) {
   const double p[] = {double(number & 1), double(number >> 1 & 1), double(number >> 2 & 1)};
   glm::dvec3 point;
@@ -39,9 +37,9 @@ std::vector<glm::dvec3> points_of(const animator::Film& film, const Target& targ
   }
   if (!has_skin) return points;
   const bool is_bone = !is_all && !model.joints[target.joint].segment;
-  for (const SurfacePoint& point : surface_of(
-                                       model, [&](std::size_t joint) { return state.joints[joint]; }, kGridOfSkin)
-                                       .points)
+  const Surface surface = surface_of(
+      model, [&](std::size_t joint) { return state.joints[joint]; }, kCoarseGrid);
+  for (const SurfacePoint& point : surface.points)
     if (!model.joints[point.segment].segment->bones.empty() &&
         (is_all || (is_bone ? point.joint : point.segment) == target.joint))
       points.push_back(point.place);

@@ -163,10 +163,8 @@ animator::ActorKey all_of(std::span<const animator::ActorKey> keys) {
 
 // Where another actor carries it, keys of its place would count for nothing.
 void refuse_carried(const Scene& scene, const animator::ActorKey& driven) {
-  const animator::Attachment* const carrier = animator::attachment_at(scene.actor, scene.at);
-  if (!carrier || driven.attach || !(driven.place || driven.turn)) return;
-  throw Failure("is carried by '" + scene.film.actors[carrier->actor].name + "' at frame " + std::to_string(scene.at),
-                scene.where(), "detach it there first");
+  if (driven.attach || !(driven.place || driven.turn)) return;
+  animator::refuse_carried(scene.film, scene.actor, scene.at, scene.where());
 }
 
 bool is_about_hands(const Action& action) {

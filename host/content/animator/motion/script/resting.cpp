@@ -54,13 +54,8 @@ animator::Film with_key(const Scene& scene, const animator::ActorKey& key) {
 
 void leave_out_idle(const Scene& scene, std::vector<animator::ActorKey>& keys) {
   const std::vector<modeler::Joint>& joints = scene.model().joints;
-  const modeler::Limbs& limbs = scene.model().limbs;
-  const auto is_limb = [&](std::size_t joint) {
-    const auto has = [&](const auto& list) { return std::find(list.begin(), list.end(), joint) != list.end(); };
-    return has(limbs.trunk) || has(limbs.sides[0]) || has(limbs.sides[1]);
-  };
   for (std::size_t joint = 0; joint < joints.size(); ++joint) {
-    if (is_limb(joint) || !scene.actor.motion.pose[joint].empty()) continue;
+    if (scene.model().limbs.has(joint) || !scene.actor.motion.pose[joint].empty()) continue;
     const std::string& name = joints[joint].name;
     const bool moves = std::any_of(keys.begin(), keys.end(), [&](const animator::ActorKey& key) {
       const auto pose = key.pose.find(name);

@@ -18,6 +18,7 @@
 #include "host/content/animator/motion/transfer/matching.h"
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/attachments.h"
 #include "node/wire/film.h"
 
 namespace mars::motion {
@@ -111,6 +112,7 @@ class Transfer {
         at_(at),
         matching_(match_joints(from_.model(), to_.model())),
         start_(to_.at(at)) {
+    animator::refuse_carried(film, film.actors[actor], at, "actor '" + film.actors[actor].name + "'");
     if (matching_.joints.empty())
       throw Failure("has no joint that stands for one of '" + source.film.actors[source.actor].name + "'",
                     "actor '" + film.actors[actor].name + "'",
@@ -166,15 +168,9 @@ class Transfer {
     // What no limb says turns as what carries it: fingers with the hand.
     for (std::size_t joint = 0; joint < correction_.size(); ++joint) {
       const std::size_t parent = to_.model().joints[joint].parent;
-      const bool by_name = !is_limb(joint) && parent != kNone;
-      if (by_name && below_wrist(joint)) correction_[joint] = correction_[parent];
+      if (!to_.model().limbs.has(joint) && parent != kNone && below_wrist(joint))
+        correction_[joint] = correction_[parent];
     }
-  }
-
-  bool is_limb(std::size_t joint) const {
-    const modeler::Limbs& limbs = to_.model().limbs;
-    const auto has = [&](const auto& list) { return std::find(list.begin(), list.end(), joint) != list.end(); };
-    return has(limbs.trunk) || has(limbs.sides[0]) || has(limbs.sides[1]);
   }
 
   bool below_wrist(std::size_t joint) const {
@@ -198,7 +194,7 @@ class Transfer {
   }
 
   // The source at a moment between two of its frames: places go straight on, joints by the smallest turn.
-  Posture sampled(double time) const {
+  Posture sampled(double time) {
     const double whole = std::floor(time + 1e-9), part = std::max(0.0, time - whole);
     Posture posture = from_.at(std::uint32_t(whole));
     note_moves(posture);
@@ -217,7 +213,7 @@ class Transfer {
     return posture;
   }
 
-  void note_moves(const Posture& posture) const {
+  void note_moves(const Posture& posture) {
     if (first_pose_.empty()) first_pose_ = posture.pose;
     moves_.resize(posture.pose.size());
     for (std::size_t joint = 0; joint < posture.pose.size(); ++joint)
@@ -361,8 +357,8 @@ class Transfer {
   bool turns_whole_ = false;                            // by the actor's turn what the pelvis of the source turns
   glm::dvec3 from_place_{0, 0, 0}, to_place_{0, 0, 0};  // on the floor below the roots
   std::map<std::size_t, double> missed_;                // of the target's joints, degrees
-  mutable std::vector<glm::dvec3> first_pose_;          // of the source's joints
-  mutable std::vector<char> moves_;
+  std::vector<glm::dvec3> first_pose_;                  // of the source's joints
+  std::vector<bool> moves_;
 };
 
 }  // namespace

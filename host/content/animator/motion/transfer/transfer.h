@@ -37,7 +37,8 @@ struct Transferred {
 // For the actor of the film from frame `at` on, where and as it faces then. Each joint turns in the world as the one
 // that it matches (matching.h); where limbs rest in other directions (arms out or hanging) they point the same way.
 // The hips go as far as their height over the floor is to the source's. The source's frames are sampled at the film's
-// rate. Throws Failure where no joints match, matrices move one of the figures, or the film would be too long.
+// rate. Throws Failure where no joints match, matrices move one of the figures, the actor is carried at frame `at`, or
+// the film would be too long.
 Transferred transfer_motion(const MotionSource& source, const animator::Film& film, std::size_t actor,
                             std::uint32_t at);
 

@@ -4,8 +4,8 @@ import {element} from "../../dom.js";
 
 const kWays = {ArrowRight: 1, ArrowLeft: -1, ArrowDown: 0, ArrowUp: 0};
 
-// `choose(name, event)` is done by a click, Enter or the space bar. `chosen`: the name of the one that is, or null where
-// cards are no choice but act.
+// `choose(name, event)` is done by a click, Enter or the space bar. `chosen`: the name of the one that is, or null: none
+// is yet; missing where cards are no choice but act.
 export function modelCards(models, {list, label, choose, chosen}) {
   const cards = list.map(({name, what}) => element("button", {
     class: "card", title: what || name, "data-key": `model.${name}`, "aria-pressed": chosen === undefined ? null : String(chosen === name), tabindex: -1,
