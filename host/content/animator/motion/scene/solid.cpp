@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <numbers>
 
 #include "host/content/animator/pose/actor_state.h"
@@ -42,6 +44,19 @@ double angle_of(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& from
                         x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
 }
 
+// Neighbours in space mostly come near each other: by the bits of their places in the box, one axis after the other.
+std::uint64_t place_in_order(const glm::dvec3& place, const glm::dvec3& low, const glm::dvec3& high) {
+  constexpr int kBits = 10;
+  std::uint64_t order = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double size = high[axis] - low[axis];
+    const double part = size > 0 ? (place[axis] - low[axis]) / size : 0;
+    const auto cell = static_cast<std::uint64_t>(std::clamp(part, 0.0, 1.0) * ((1 << kBits) - 1));
+    for (int bit = 0; bit < kBits; ++bit) order |= (cell >> bit & 1) << (3 * bit + axis);
+  }
+  return order;
+}
+
 }  // namespace
 
 Solid::Solid(const animator::Film& film, std::size_t actor, std::uint32_t frame, const modeler::Axes& seen_from) {
@@ -49,10 +64,19 @@ Solid::Solid(const animator::Film& film, std::size_t actor, std::uint32_t frame,
   const Surface surface = surface_of(
       film.model_of(actor), [&](std::size_t joint) { return animator::seen_from(seen_from, state.joints[joint]); },
       kFineGrid);
-  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+  std::vector<Triangle> triangles(surface.triangles.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      triangles[i][k] = surface.points[surface.triangles[i][k]].place;
+      low_ = glm::min(low_, triangles[i][k]);
+      high_ = glm::max(high_, triangles[i][k]);
+    }
+  std::ranges::stable_sort(triangles, {}, [&](const Triangle& triangle) {
+    return place_in_order((triangle[0] + triangle[1] + triangle[2]) / 3.0, low_, high_);
+  });
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (i % kTogether == 0) patches_.emplace_back();
-    Triangle& triangle = patches_.back().triangles.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) triangle[k] = surface.points[surface.triangles[i][k]].place;
+    patches_.back().triangles.push_back(triangles[i]);
   }
   for (Patch& patch : patches_) {
     glm::dvec3 low(1e300), high(-1e300);
@@ -76,6 +100,7 @@ double Solid::distance(const glm::dvec3& from) const {
 }
 
 bool Solid::holds(const glm::dvec3& place) const {
+  if (glm::any(glm::lessThan(place, low_)) || glm::any(glm::greaterThan(place, high_))) return false;
   double around = 0;
   for (const Patch& patch : patches_)
     for (const Triangle& triangle : patch.triangles) around += angle_of(triangle, place);

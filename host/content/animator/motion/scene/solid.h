@@ -29,6 +29,7 @@ class Solid {
   };
 
   std::vector<Patch> patches_;
+  glm::dvec3 low_{1e300}, high_{-1e300};  // of the box round all
 };
 
 }  // namespace mars::motion
