@@ -103,6 +103,7 @@ TEST_F(Motions, JointsThatSlideAreReported) {
 
 TEST_F(Motions, DamagedBvhIsRefusedAtItsLine) {
   EXPECT_EQ(refused("a.bvh", ""), (folder_ / "a.bvh").string() + ": is empty (export it again)");
+  EXPECT_TRUE(holds(refused("a.bvh", "\n"), "ends before 'HIERARCHY' at its beginning (the file may be cut short"));
   const auto expect = [&](const char* part, const char* other, const std::string& message) {
     const std::string found = refused("a.bvh", with(kBvh, part, other));
     EXPECT_TRUE(holds(found, "a.bvh" + message)) << found;
