@@ -192,9 +192,13 @@ class StudioPages::Open {
     const auto make_importing = [&](const studio::Project& project, studio::Importing::Listener listener) {
       return studio::make_importing(context_, {file, "/none/mars"}, project, std::move(listener));
     };
+    const auto make_thumbnails = [&](studio::Thumbnails::Listener listener) {
+      return studio::make_thumbnails(context_, {file, "/none/mars", file.parent_path()}, std::move(listener));
+    };
     auto project = studio::open_project(file);
     project_ = project.get();
-    studio_.emplace(studio::Parts{std::move(project), make_link, studio::make_stage, make_rendering, make_importing},
+    studio_.emplace(studio::Parts{std::move(project), make_link, studio::make_stage, make_rendering, make_importing,
+                                  make_thumbnails},
                     pages_);
     keys_ = project_->keys_revision();
     poses_ = project_->describe_poses();
