@@ -18,7 +18,7 @@
 namespace mars::forecast {
 namespace {
 
-constexpr std::uint32_t kVersion = 2;  // of these files, and of what is counted
+constexpr std::uint32_t kVersion = 2;  // of files of counts, and of what is counted
 // As .mars files: no text file begins so, and a transfer as text breaks it.
 constexpr std::array<char, 8> kMagic = {'\x89', 'M', 'C', 'N', 'T', '\r', '\n', '\x1a'};
 
