@@ -120,16 +120,21 @@ Tessellation Tessellator::tessellate(const geometry::Scene& scene, const Scatter
 
 void Tessellator::add(const geometry::Scene& scene, bool moving, const Scatter& scatter, Output& output) {
   for (std::size_t s = 0; s < scene.film().segments().size(); ++s)
-    if (scene.moves(s) == moving) add_segment(scene, s, scatter, output);
+    if (moving ? scene.moves(s) : scene.stands(s)) add_segment(scene, s, moving, scatter, output);
 }
 
-void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter,
+void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment, bool moving, const Scatter& scatter,
                               Output& output) {
   const wire::PackedFilm& film = scene.film();
   const std::uint32_t number = film.segments()[segment].shape;
   const wire::Shape& shape = film.shape(number);
   const std::uint32_t first = scene.first_patch(segment);
-  const auto from = [&](std::uint64_t place) { return scatter.from(first + place) - first; };
+  const auto from = [&](std::uint64_t place) {
+    for (;; ++place) {
+      place = scatter.from(first + place) - first;
+      if (place >= shape.size() || scene.moves(segment, place) == moving) return place;
+    }
+  };
   std::uint64_t i = from(0);
   if (i >= shape.size()) return;
   place_.find(scene, segment);
@@ -137,8 +142,7 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   if (touches == Touches::nothing) return;
   output.own = touches == Touches::perhaps ? output.all_own : nullptr;
   const std::uint32_t material = scene.material(segment);
-  raster::PatchIdentity identity{0, material, place_.mirrors(), film.materials()[material].sides == 1,
-                                 scene.moves(segment)};
+  raster::PatchIdentity identity{0, material, place_.mirrors(), film.materials()[material].sides == 1, moving};
   for (; i < shape.patch_count; i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);

@@ -103,7 +103,9 @@ class Tessellator {
   enum class Touches { nothing, perhaps, only };
 
   void add(const geometry::Scene& scene, bool moving, const Scatter& scatter, Output& output);
-  void add_segment(const geometry::Scene& scene, std::size_t segment, const Scatter& scatter, Output& output);
+  // Those of its patches and meshlets that move, or those that stand still.
+  void add_segment(const geometry::Scene& scene, std::size_t segment, bool moving, const Scatter& scatter,
+                   Output& output);
   // Of the segment that place_ is of.
   Touches touches(const geometry::Scene& scene, const OwnLines* own) const;
   // Of the segment's shape, by its number.

@@ -32,7 +32,7 @@ class Net {
   void add(const wire::Patch& patch) { join_net(numbers_of(patch.points)); }
 
   // Of the skin whose net is set().
-  void add(const wire::Patch& patch, const wire::NetPatch& means) {
+  void add(const wire::Patch& patch, const wire::PatchStencils& means) {
     const std::vector<std::uint32_t> numbers = numbers_of(patch.points);
     for (std::size_t point = 0; point < numbers.size(); ++point)
       if (numbers[point] == lines_.means.size()) lines_.means.push_back(means[point]);
@@ -121,9 +121,9 @@ class Numbers {
 modeler::ControlNet bent_net(const wire::PackedFilm& film, const wire::Shape& shape) {
   modeler::ControlNet net;
   Numbers stencils, points;
-  for (wire::NetPatch patch : film.net_patches_of(shape)) {
-    for (std::uint32_t& stencil : patch) stencil = stencils.of(stencil);
-    net.patches.push_back(patch);
+  for (const wire::NetPatch& patch : film.net_patches_of(shape)) {
+    wire::PatchStencils& own = net.patches.emplace_back(patch.stencils);
+    for (std::uint32_t& stencil : own) stencil = stencils.of(stencil);
   }
   for (const std::uint32_t number : stencils.all()) {
     const auto terms = film.terms_of(film.stencils()[number]);

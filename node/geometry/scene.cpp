@@ -52,7 +52,7 @@ template <typename Visit>
 void visit_skins(const wire::PackedFilm& film, std::uint32_t shape, const Visit& visit) {
   std::vector<bool> visited(film.net_patches_of(shape).empty() ? 0 : film.net_points().size());
   for (const wire::NetPatch& patch : film.net_patches_of(shape))
-    for (const std::uint32_t stencil : patch)
+    for (const std::uint32_t stencil : patch.stencils)
       for (const wire::StencilTerm& term : film.terms_of(film.stencils()[stencil])) {
         if (visited[term.point]) continue;
         visited[term.point] = true;
@@ -181,7 +181,7 @@ Scene::Scene(const wire::PackedFilm& film)
   const auto is_dual = [](const wire::Segment& s) { return s.blend == wire::Blend::dual_quaternions; };
   if (std::ranges::any_of(film.segments(), is_dual))
     for (const wire::Meshlet& meshlet : film.meshlets()) bone_pairs_.push_back(found_pairs(film, meshlet));
-  moves_.resize(film.segments().size());
+  moves_.resize(film.segments().size() + film.bones().size());
   moved_at_.resize(film.segments().size() + film.bones().size());
   lights_.resize(film.light_tracks().size());
   light_order_.resize(lights_.size());
@@ -192,9 +192,30 @@ Scene::Scene(const wire::PackedFilm& film)
 }
 
 void Scene::set_interval(std::uint32_t number) {
-  for (const std::uint32_t segment : movers_) moves_[segment] = 0;
-  movers_ = film_.moving(film_.intervals()[number]);
-  for (const std::uint32_t segment : movers_) moves_[segment] = 1;
+  const wire::Interval& interval = film_.intervals()[number];
+  std::ranges::fill(moves_, std::uint8_t{0});
+  for (const std::uint32_t part : film_.moving(interval)) moves_[part] = 1;
+  movers_ = film_.moving_segments(interval);
+}
+
+bool Scene::stands(std::size_t segment) const {
+  if (!moves(segment)) return true;
+  const wire::Segment& of = film_.segments()[segment];
+  const auto bones = std::span(moves_).subspan(film_.segments().size() + of.first_bone, of.bone_count);
+  return std::ranges::count(bones, std::uint8_t{0}) > 0;
+}
+
+bool Scene::any_stands() const {
+  for (std::size_t segment = 0; segment < film_.segments().size(); ++segment)
+    if (stands(segment)) return true;
+  return false;
+}
+
+bool Scene::moves(std::size_t segment, std::size_t piece) const {
+  const wire::Segment& of = film_.segments()[segment];
+  if (!moves(segment) || of.bone_count == 0) return moves(segment);
+  return std::ranges::any_of(film_.bones_of_piece(of.shape, piece),
+                             [&](std::uint32_t bone) { return bone_moves(segment, bone); });
 }
 
 void Scene::set_frame(std::uint32_t frame) {

@@ -82,9 +82,18 @@ class Scene {
   // The world's z axis in eye space.
   std::array<float, 3> up() const;
 
+  // Segments of which something moves.
   std::span<const std::uint32_t> movers() const { return movers_; }
   bool any_moves() const { return !movers_.empty(); }
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
+  // Whether some of the segment, or of all, may stand still.
+  bool stands(std::size_t segment) const;
+  bool any_stands() const;
+  // Of one of the segment's patches or meshlets, by its number in the shape: of a skin whether one of its bones moves.
+  bool moves(std::size_t segment, std::size_t piece) const;
+  bool bone_moves(std::size_t segment, std::uint32_t bone) const {
+    return moves_[film_.segments().size() + film_.segments()[segment].first_bone + bone] != 0;
+  }
   // Number of the segment's first patch or meshlet among all of the film.
   std::uint32_t first_patch(std::size_t segment) const { return first_patch_[segment]; }
   // Whose a patch or meshlet of that number is.
@@ -101,7 +110,7 @@ class Scene {
   wire::PackedFilm film_;
   shape::Tolerances tolerances_;
   std::vector<std::uint32_t> first_patch_;
-  std::vector<std::uint8_t> moves_;
+  std::vector<std::uint8_t> moves_;  // by segment, then by bone
   std::span<const std::uint32_t> movers_;
   std::vector<wire::MovedSegment> moved_;
   std::vector<std::uint32_t> moved_at_;  // by segment, then by bone: its place in moved_ and one; 0: it is not there

@@ -116,7 +116,7 @@ bool SegmentPlace::mirrors() const { return shape::mirrors(has_skin() ? bones_.m
 shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t number) const {
   if (!has_skin()) return shape::to_eye(matrix_, film.patches_of(shape_)[number]);
   const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bones_); };
-  const wire::NetPatch& stencils = film.net_patches_of(shape_)[number];
+  const wire::PatchStencils& stencils = film.net_patches_of(shape_)[number].stencils;
   shape::EyePatch moved;
   for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
     std::ranges::copy(net_.bezier(film, stencils[point], move), moved.point[point]);
@@ -126,7 +126,7 @@ shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t nu
 Bending SegmentPlace::bending(const wire::PackedFilm& film, std::size_t patch) const {
   if (!has_skin()) return {wire::SurfaceKind::patch};
   Bending bending{wire::SurfaceKind::net_patch};
-  for (const std::uint32_t stencil : film.net_patches_of(shape_)[patch])
+  for (const std::uint32_t stencil : film.net_patches_of(shape_)[patch].stencils)
     bending.units += film.stencils()[stencil].term_count;
   return bending;
 }

@@ -153,7 +153,7 @@ void SurfaceView::find_ways(std::uint32_t frame) {
     if (stays(film, segment, frame) && now == then) continue;
     if (segment.bone_count > 0) {
       ways_[number].moves = ways_[number].has_skin = true;
-      still_has_moved_ |= !scene_.moves(number);
+      still_has_moved_ |= scene_.stands(number) && (!(now == then) || standing_bone_moved(number));
       continue;
     }
     if (!invert(film.matrix_at(segment, frame), from_world)) continue;
@@ -164,6 +164,13 @@ void SurfaceView::find_ways(std::uint32_t frame) {
       for (std::size_t c = 0; c < 4; ++c) ways_[number].m[r][c] = static_cast<float>(way.m[r][c]);
     still_has_moved_ |= !scene_.moves(number);
   }
+}
+
+bool SurfaceView::standing_bone_moved(std::size_t segment) const {
+  const auto bones = scene_.film().bones_of(scene_.film().segments()[segment]);
+  for (std::uint32_t bone = 0; bone < bones.size(); ++bone)
+    if (!scene_.bone_moves(segment, bone) && !stays(scene_.film(), bones[bone], frame_)) return true;
+  return false;
 }
 
 wire::SurfacePoint SurfaceView::at(const Triangle& triangle, std::int32_t x, std::int32_t y) const {
@@ -215,11 +222,11 @@ void SurfaceView::find_bent(std::uint32_t patch, std::uint32_t segment) const {
   const wire::PackedFilm& film = scene_.film();
   const wire::Segment& of = film.segments()[segment];
   const std::size_t number = patch - scene_.first_patch(segment), patches = film.shape(of.shape).patch_count;
-  if (bent_.segment != segment) {
-    bent_.segment = segment;
-    put_bones(film, of, frame_, bent_.bones_now);
-    put_bones(film, of, frame_ - 1, bent_.bones_before);
-  }
+  find_bones(segment);
+  const bool same_camera = film.camera_at(frame_) == film.camera_at(frame_ - 1);
+  bent_.stays = same_camera && std::ranges::all_of(film.bones_of_piece(of.shape, number),
+                                                   [&](std::uint32_t bone) { return bent_.bone_stays[bone] == 1; });
+  if (bent_.stays) return;
   if (number < patches) {
     static const std::vector<wire::MeshTriangle> kTriangles = triangles_of_net();
     put_patch(of, number, bent_.bones_now, bent_.now);
@@ -234,6 +241,17 @@ void SurfaceView::find_bent(std::uint32_t patch, std::uint32_t segment) const {
   bent_.triangles = film.mesh_triangles().subspan(meshlet.first_triangle, meshlet.triangle_count);
 }
 
+void SurfaceView::find_bones(std::uint32_t segment) const {
+  if (bent_.segment == segment) return;
+  bent_.segment = segment;
+  const wire::PackedFilm& film = scene_.film();
+  const wire::Segment& of = film.segments()[segment];
+  put_bones(film, of, frame_, bent_.bones_now);
+  put_bones(film, of, frame_ - 1, bent_.bones_before);
+  bent_.bone_stays.clear();
+  for (const wire::Track& bone : film.bones_of(of)) bent_.bone_stays.push_back(stays(film, bone, frame_));
+}
+
 // Places on a patch of the segment's shape, see put_net().
 void SurfaceView::put_patch(const wire::Segment& segment, std::size_t number, const EyeBones& bones,
                             std::vector<Float3>& out) const {
@@ -241,14 +259,13 @@ void SurfaceView::put_patch(const wire::Segment& segment, std::size_t number, co
   bent_.net.start(film);
   const auto move = [&](const wire::NetPoint& point) { return moved_point(film, point, bones); };
   out.resize(wire::kPatchPoints);
-  const wire::NetPatch& stencils = film.net_patches_of(segment.shape)[number];
+  const wire::PatchStencils& stencils = film.net_patches_of(segment.shape)[number].stencils;
   for (std::size_t point = 0; point < out.size(); ++point) out[point] = bent_.net.bezier(film, stencils[point], move);
   put_net(out);
 }
 
-// Where the point was: on the triangle that is nearest to it now.
-void SurfaceView::put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const {
-  find_bent(triangle.patch, segment);
+// Where the point was: on the triangle that is nearest to it now, of what is bent_.
+void SurfaceView::put_before(const Place& place, float* eye) const {
   const Float3 point{place.eye[0], place.eye[1], place.eye[2]};
   float least = std::numeric_limits<float>::max();
   Float3 before{};
@@ -268,7 +285,11 @@ void SurfaceView::put_motion(const Triangle& triangle, const Place& place, std::
   if (ways_.empty() || !ways_[segment].moves) return;
   const auto& m = ways_[segment].m;
   float eye[3];
-  if (ways_[segment].has_skin) put_before(triangle, place, segment, eye);
+  if (ways_[segment].has_skin) {
+    find_bent(triangle.patch, segment);
+    if (bent_.stays) return;
+    put_before(place, eye);
+  }
   for (int axis = 0; axis < 3 && !ways_[segment].has_skin; ++axis)
     eye[axis] = ((m[axis][0] * place.eye[0] + m[axis][1] * place.eye[1]) + m[axis][2] * place.eye[2]) + m[axis][3];
   const float w = -eye[2];

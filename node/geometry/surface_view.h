@@ -44,6 +44,8 @@ class SurfaceView {
     std::span<const wire::MeshTriangle> triangles;
     EyeBones bones_now, bones_before;
     NetPoints<float, 3> net;
+    std::vector<std::uint8_t> bone_stays;  // by the segment's bones: 1 if it is where it was at the frame before
+    bool stays = false;                    // all of it
   };
 
   struct Place {
@@ -53,13 +55,15 @@ class SurfaceView {
   };
 
   void find_ways(std::uint32_t frame);
+  bool standing_bone_moved(std::size_t segment) const;
   Place place_of(const Triangle& triangle, std::int32_t x, std::int32_t y) const;
   void put_normal(const Triangle& triangle, const Place& place, float* normal) const;
   void put_motion(const Triangle& triangle, const Place& place, std::uint32_t segment, float* motion) const;
   void find_bent(std::uint32_t patch, std::uint32_t segment) const;
+  void find_bones(std::uint32_t segment) const;
   void put_patch(const wire::Segment& segment, std::size_t number, const EyeBones& bones,
                  std::vector<std::array<float, 3>>& out) const;
-  void put_before(const Triangle& triangle, const Place& place, std::uint32_t segment, float* eye) const;
+  void put_before(const Place& place, float* eye) const;
 
   const Scene& scene_;
   std::uint32_t frame_ = 0;

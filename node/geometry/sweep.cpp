@@ -176,7 +176,7 @@ class Shadows {
       if (film.casts(track)) lights_.push_back(film.lights()[film.value_at(track, frame)]);
     Box all;
     for (std::size_t s = 0; s < film.segments().size(); ++s) {
-      if (scene.moves(s)) continue;
+      if (!scene.stands(s)) continue;
       const Hull corners = whole_of(scene, film.segments()[s], frame, boxes, skin);
       receivers_.emplace_back().add(corners);
       all.add(corners);
@@ -245,16 +245,17 @@ class Shadows {
   std::vector<Box> receivers_;  // in the world
 };
 
-// Hulls in the world round the pieces of segments: round each patch and meshlet, or round a whole shape.
+// Hulls in the world round the moving pieces of segments: round each patch and meshlet, or round a whole shape.
 class Pieces {
  public:
   Pieces(const Scene& scene, const ShapeBoxes& boxes, bool are_fine, SkinScratch& scratch)
       : scene_(scene), film_(scene.film()), boxes_(boxes), are_fine_(are_fine), scratch_(scratch) {}
 
   template <typename Visit>
-  void visit(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
+  void visit(std::uint32_t number, std::uint32_t frame, const Visit& visit) {
+    const wire::Segment& segment = film_.segments()[number];
     if (!are_fine_) return visit(whole_of(scene_, segment, frame, boxes_, scratch_.bones));
-    if (segment.bone_count > 0) return visit_skin(segment, frame, visit);
+    if (segment.bone_count > 0) return visit_skin(number, frame, visit);
     const wire::Matrix& matrix = film_.matrix_at(segment, frame);
     for (const wire::Patch& patch : film_.patches_of(segment.shape)) {
       Hull hull;
@@ -267,13 +268,17 @@ class Pieces {
 
  private:
   template <typename Visit>
-  void visit_skin(const wire::Segment& segment, std::uint32_t frame, const Visit& visit) {
+  void visit_skin(std::uint32_t number, std::uint32_t frame, const Visit& visit) {
+    const wire::Segment& segment = film_.segments()[number];
     SkinBounds& bones = scratch_.bones;
     find_bones(scene_, segment, frame, bones);
     const Point eye = eye_of(film_.camera_at(frame));
     scratch_.net.start(film_);
-    for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape)) visit(hull_of(patch, eye));
+    std::size_t piece = 0;
+    for (const wire::NetPatch& patch : film_.net_patches_of(segment.shape))
+      if (scene_.moves(number, piece++)) visit(hull_of(patch, eye));
     for (const wire::Meshlet& meshlet : film_.meshlets_of(segment.shape)) {
+      if (!scene_.moves(number, piece++)) continue;
       const SkinBounds::Box box = bones.round(film_.bones_of(meshlet.skin), meshlet.low, meshlet.high,
                                               pairs_of(film_, meshlet, scene_.bone_pairs()));
       visit(corners_of(box, eye));
@@ -286,7 +291,7 @@ class Pieces {
     Box all;
     bool in_doubt = false;
     const auto move = [&](const wire::NetPoint& point) { return both_ends(scratch_.bones.round(film_, point)); };
-    for (const std::uint32_t stencil : patch) {
+    for (const std::uint32_t stencil : patch.stencils) {
       const auto& box = scratch_.net.bezier(film_, stencil, move);
       const Point low = from_eye(box.data(), eye), high = from_eye(box.data() + 3, eye);
       points.add(low);
@@ -367,8 +372,10 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   const wire::PackedFilm& film = scene.film();
   const std::span<const std::uint32_t> movers = scene.movers();
   std::uint64_t pieces = 0;
-  for (const std::uint32_t segment : movers) pieces += film.shape(film.segments()[segment].shape).size();
-  const bool any_still = movers.size() < film.segments().size();
+  for (const std::uint32_t segment : movers)
+    for (std::size_t piece = 0; piece < film.shape(film.segments()[segment].shape).size(); ++piece)
+      pieces += scene.moves(segment, piece);
+  const bool any_still = scene.any_stands();
   Pieces hulls(scene, boxes, any_still && pieces * frames.size() <= kMostHulls, scratch_);
   std::optional<Shadows> shadows;
   if (any_still && scene.casting_count() > 0)
@@ -380,7 +387,7 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
       const wire::Camera& camera = film.camera_at(frame);
       const bool casts = film.material_at(segment, frame).casts == 1;
       const View view(camera, scene);
-      hulls.visit(segment, frame, [&](const Hull& in_world) {
+      hulls.visit(number, frame, [&](const Hull& in_world) {
         const Hull in_eye_space = moved(camera.world_to_eye, in_world);
         const PictureBounds bounds = view.bound(in_eye_space);
         take_in(bounds.lines);

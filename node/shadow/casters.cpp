@@ -68,8 +68,13 @@ bool is_compact(const shape::Triangles& compact, const shape::Triangles& t) {
 }
 
 bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
-  return scene.moves(segment) == (casting == Casting::moving) &&
+  return (casting == Casting::moving ? scene.moves(segment) : scene.stands(segment)) &&
          scene.film().materials()[scene.material(segment)].casts == 1;
+}
+
+// Of a segment of which some does.
+bool casts(const geometry::Scene& scene, std::size_t segment, std::size_t piece, Casting casting) {
+  return scene.moves(segment, piece) == (casting == Casting::moving);
 }
 
 }  // namespace
@@ -168,6 +173,7 @@ std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
     const wire::Shape& shape = film.shape(number);
     place_.find(*scene_, segment_);
     for (; item_ < shape.size(); ++item_) {
+      if (!casts(*scene_, segment_, item_, casting_)) continue;
       if (!store_.has_room() || chunk_.size() == store_.most()) return chunk_;
       add_item(shape, number, matters);
     }
@@ -201,9 +207,12 @@ void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
     if (!casts(scene, s, casting)) continue;
     const std::uint32_t number = film.segments()[s].shape;
     place_.find(scene, s);
-    for (std::size_t patch = 0; patch < film.patches_of(number).size(); ++patch)
-      visit(hull_of(place_.patch(film, patch)));
-    for (const wire::Meshlet& meshlet : film.meshlets_of(number)) visit(hull_of(place_.corners(film, meshlet)));
+    const std::size_t patches = film.patches_of(number).size();
+    const auto meshlets = film.meshlets_of(number);
+    for (std::size_t piece = 0; piece < film.shape(number).size(); ++piece)
+      if (casts(scene, s, piece, casting))
+        visit(piece < patches ? hull_of(place_.patch(film, piece))
+                              : hull_of(place_.corners(film, meshlets[piece - patches])));
   }
 }
 

@@ -333,8 +333,12 @@ void PackedFilm::check_bones(const Shape& shape, const std::string& where) const
   if (shape.bone_count == 0) return;
   require(within(shape.first_net_patch, shape.patch_count, net_patches_.size()), where, "a shape has no such net");
   for (const NetPatch& patch : net_patches_of(shape))
-    for (const std::uint32_t stencil : patch)
-      for (const StencilTerm& term : terms_of(stencils_[stencil])) check_bones(net_points_[term.point].skin);
+    for (const std::uint32_t stencil : patch.stencils)
+      for (const StencilTerm& term : terms_of(stencils_[stencil])) {
+        const Skin& skin = net_points_[term.point].skin;
+        check_bones(skin);
+        require(std::ranges::includes(bones_of(patch), bones_of(skin)), where, "a net's patch lacks a bone");
+      }
 }
 
 void PackedFilm::check_nets(const std::string& where) const {
@@ -355,9 +359,11 @@ void PackedFilm::check_nets(const std::string& where) const {
     }
     require(std::abs(sum - 1) <= kWeightRounding, where, "a stencil's weights do not add up to 1");
   }
-  for (const NetPatch& patch : net_patches_)
-    for (const std::uint32_t stencil : patch)
+  for (const NetPatch& patch : net_patches_) {
+    check_bone_list(patch.first_bone, patch.bone_count, where);
+    for (const std::uint32_t stencil : patch.stencils)
       require(stencil < stencils_.size(), where, "a net's patch has no such stencil");
+  }
 }
 
 void PackedFilm::check_intervals(const std::string& where) const {
@@ -370,7 +376,8 @@ void PackedFilm::check_intervals(const std::string& where) const {
     require(inside, where, "an interval has no such moving segments");
     const auto list = moving(interval);
     const bool ascending = std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
-    require(ascending && (list.empty() || list.back() < segments_.size()), where, "an interval's movers are broken");
+    const bool known = list.empty() || list.back() < segments_.size() + bones_.size();
+    require(ascending && known, where, "an interval's movers are broken");
     require(exposed_evenly(interval), where, "its exposure changes within an interval");
   }
   require(next == settings_->frames, where, "its intervals do not cover its frames");
@@ -405,13 +412,17 @@ void PackedFilm::check_meshlets(const std::string& where) const {
   }
 }
 
-void PackedFilm::check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const {
-  require(within(skin.first_bone, skin.bone_count, skin_bones_.size()), where, "a skin has no such bones");
-  const std::uint64_t weights = std::uint64_t{skin.bone_count} * points;
-  require(within(skin.first_weight, weights, skin_weights_.size()), where, "a skin has no such weights");
-  const auto bones = bones_of(skin);
+void PackedFilm::check_bone_list(std::uint32_t first, std::uint32_t count, const std::string& where) const {
+  require(within(first, count, skin_bones_.size()), where, "a skin has no such bones");
+  const auto bones = skin_bones_.subspan(first, count);
   require(std::ranges::adjacent_find(bones, std::greater_equal<>()) == bones.end(), where,
           "a skin's bones do not ascend");
+}
+
+void PackedFilm::check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const {
+  check_bone_list(skin.first_bone, skin.bone_count, where);
+  const std::uint64_t weights = std::uint64_t{skin.bone_count} * points;
+  require(within(skin.first_weight, weights, skin_weights_.size()), where, "a skin has no such weights");
   const auto all = weights_of(skin, points);
   require(std::ranges::all_of(all, is_share), where, "a weight is not within 0 and 1");
   for (std::uint32_t point = 0; point < points && skin.bone_count > 0; ++point) {
@@ -425,6 +436,17 @@ void PackedFilm::check_skin(const Skin& skin, std::uint32_t points, const std::s
 
 std::span<const std::uint32_t> PackedFilm::moving(const Interval& interval) const {
   return moving_.subspan(interval.first_moving, interval.moving_count);
+}
+
+std::span<const std::uint32_t> PackedFilm::moving_segments(const Interval& interval) const {
+  const auto all = moving(interval);
+  return {all.begin(), std::ranges::lower_bound(all, segments_.size())};
+}
+
+std::span<const std::uint32_t> PackedFilm::bones_of_piece(std::uint32_t shape_number, std::size_t piece) const {
+  const std::uint32_t patches = shape(shape_number).patch_count;
+  return piece < patches ? bones_of(net_patches_of(shape_number)[piece])
+                         : bones_of(meshlets_of(shape_number)[piece - patches].skin);
 }
 
 std::string_view PackedFilm::name(const Segment& segment) const { return names_.data() + segment.name; }

@@ -128,6 +128,11 @@ class PackedFilm {
   std::span<const std::uint32_t> bones_of(const Skin& skin) const {
     return skin_bones_.subspan(skin.first_bone, skin.bone_count);
   }
+  std::span<const std::uint32_t> bones_of(const NetPatch& patch) const {
+    return skin_bones_.subspan(patch.first_bone, patch.bone_count);
+  }
+  // That patch or meshlet number `piece` of a shape with a skin follows.
+  std::span<const std::uint32_t> bones_of_piece(std::uint32_t shape_number, std::size_t piece) const;
   // Bone by bone, of `points` points each.
   std::span<const float> weights_of(const Skin& skin, std::uint32_t points) const {
     return skin_weights_.subspan(skin.first_weight, std::size_t{skin.bone_count} * points);
@@ -136,7 +141,9 @@ class PackedFilm {
     return bones_.subspan(segment.first_bone, segment.bone_count);
   }
 
+  // Segments and bones; and the segments alone.
   std::span<const std::uint32_t> moving(const Interval& interval) const;
+  std::span<const std::uint32_t> moving_segments(const Interval& interval) const;
   std::string_view name(const Segment& segment) const;
   std::string_view material_name(const Segment& segment) const;
 
@@ -159,6 +166,7 @@ class PackedFilm {
   void check_meshlets(const std::string& where) const;
   void check_bones(const Shape& shape, const std::string& where) const;
   void check_nets(const std::string& where) const;
+  void check_bone_list(std::uint32_t first, std::uint32_t count, const std::string& where) const;
   void check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const;
   void check_segments(const std::string& where) const;
   void check_intervals(const std::string& where) const;

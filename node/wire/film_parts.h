@@ -10,7 +10,7 @@
 namespace mars::wire {
 
 // Bumped whenever the layout or the meaning of a field changes; other versions are refused.
-inline constexpr std::uint32_t kFilmVersion = 8;
+inline constexpr std::uint32_t kFilmVersion = 9;
 inline constexpr std::uint32_t kMaxSide = 16384;         // pixels
 inline constexpr std::uint32_t kMostMargin = 8192;       // pixels that are drawn beyond a side of the whole picture
 inline constexpr std::uint32_t kMostFrames = 1'000'000;  // of a film
@@ -81,7 +81,14 @@ struct StencilTerm {
 inline constexpr std::uint32_t kMostTerms = 256;
 
 // Numbers of stencils, in the order of Patch::points. Neighbours have the same.
-using NetPatch = std::array<std::uint32_t, kPatchPoints>;
+using PatchStencils = std::array<std::uint32_t, kPatchPoints>;
+
+// A patch that bends; the means' points follow skin_bones[first_bone, first_bone + bone_count), ascending.
+struct NetPatch {
+  PatchStencils stencils{};
+  std::uint32_t first_bone = 0;
+  std::uint32_t bone_count = 0;
+};
 
 // A part of a polygon mesh, of bounded size so that a mesh is divided over nodes as patches are: vertices
 // [first_vertex, first_vertex + vertex_count) of the film's places and normals, and triangles whose corners count from
@@ -253,9 +260,11 @@ struct Camera {
   bool operator==(const Camera&) const = default;
 };
 
-// Frames [first_frame, first_frame + frame_count) over which the same segments, moving[first_moving,
-// first_moving + moving_count) in ascending order, move and all others stand still, unseen by a moving
-// camera or light (if one moves, every segment is listed).
+// Frames [first_frame, first_frame + frame_count) over which the same segments and bones move and all others stand
+// still, unseen by a moving camera or light. Those that move are moving[first_moving, first_moving + moving_count), in
+// ascending order: numbers of segments; then, each plus the number of all segments, of bones. Of a segment with a skin
+// its patches and meshlets move that follow a bone which does. If camera or light move, every segment and bone is
+// listed.
 struct Interval {
   std::uint32_t first_frame;
   std::uint32_t frame_count;

@@ -18,20 +18,14 @@ std::vector<std::byte> pack_scene(const FilmData& scene) {
 MovingParts::MovingParts(const PackedFilm& scene)
     : segments_(scene.segments().size() + scene.bones().size()),
       patches_(scene.patches().size()),
-      materials_(scene.materials().size()),
-      all_(scene.segments().size()) {
+      materials_(scene.materials().size()) {
   const auto moving = scene.moving(scene.intervals().front());
   moving_ = moving.size();
-  for (const std::uint32_t number : moving) {
-    const Segment& segment = scene.segments()[number];
-    segments_[number] = 1;
-    std::fill_n(segments_.begin() + static_cast<std::ptrdiff_t>(all_ + segment.first_bone), segment.bone_count,
-                std::uint8_t{1});
-  }
+  for (const std::uint32_t number : moving) segments_[number] = 1;
   const std::size_t base = scene.shape_count() - scene.shapes().size();
   for (const std::uint8_t moves : {std::uint8_t{1}, std::uint8_t{0}}) {
     std::vector<std::uint8_t> shown(scene.shapes().size());
-    for (std::size_t s = 0; s < all_; ++s)
+    for (std::size_t s = 0; s < scene.segments().size(); ++s)
       if (const std::size_t shape = scene.segments()[s].shape; segments_[s] == moves && shape >= base)
         shown[shape - base] = 1;
     for (std::size_t shape = 0; shape < shown.size(); ++shape)

@@ -17,7 +17,7 @@ namespace mars::wire {
 // The block of a scene; `scene.settings.frames` is 1.
 std::vector<std::byte> pack_scene(const FilmData& scene);
 
-// What a view's Draws may change: moving segments, and patches of which nothing else is made.
+// What a view's Draws may change: moving segments and bones, and patches of which nothing else is made.
 class MovingParts {
  public:
   MovingParts() = default;
@@ -29,14 +29,14 @@ class MovingParts {
   // Of the scene's, which a segment may be made of.
   std::size_t materials() const { return materials_; }
   // Whether nothing stands still, and whether nothing moves.
-  bool are_all() const { return moving_ == all_; }
+  bool are_all() const { return moving_ == segments_.size(); }
   bool are_none() const { return moving_ == 0; }
 
  private:
   std::vector<std::uint8_t> segments_;  // and bones
   std::vector<std::uint8_t> patches_;   // of the block
   std::size_t materials_ = 0;
-  std::size_t moving_ = 0, all_ = 0;  // segments
+  std::size_t moving_ = 0;  // segments and bones
 };
 
 }  // namespace mars::wire

@@ -156,9 +156,10 @@ class Browser:
         left, top, width, height = self.run("""
             const at = arguments[0].getBoundingClientRect();
             return [at.x, at.y, at.width, at.height];""", view)
-        for patience in (pause, 5 * pause):  # a busy machine answers late
+        # A busy machine answers late, and some limbs are small.
+        for patience, columns in ((pause, 40), (2 * pause, 120), (5 * pause, 40)):
             for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.3, 0.65, 0.25, 0.7, 0.2, 0.75):
-                for along in [0.5 + sign * step / 40 for step in range(16) for sign in (1, -1)]:
+                for along in [0.5 + sign * step / columns for step in range(2 * columns // 5) for sign in (1, -1)]:
                     x, y = round(left + along * width), round(top + down * height)
                     self.move(x, y)
                     time.sleep(patience)

@@ -273,6 +273,45 @@ TEST_P(Division, InbetweensSendNothingToNodesAndDrawNothingStationary) {
   EXPECT_LE(counted.counts.sent({.type = wire::kTriangles}).messages, static_cast<std::uint64_t>(nodes * (nodes - 1)));
 }
 
+// Whether the net's or the vertices' points of one of the segment's pieces follow a bone that moves, plainly.
+bool follows_moving(const wire::PackedFilm& film, std::uint32_t segment, std::size_t piece) {
+  const wire::Segment& of = film.segments()[segment];
+  const auto moving = film.moving(film.intervals()[0]);
+  bool follows = false;
+  const auto look = [&](const wire::Skin& skin, std::uint32_t points) {
+    for (std::size_t i = 0; i < skin.bone_count; ++i)
+      for (const float weight : film.weights_of(skin, points).subspan(i * points, points))
+        follows |= weight > 0 &&
+                   std::ranges::count(moving, film.segments().size() + of.first_bone + film.bones_of(skin)[i]) > 0;
+  };
+  const std::size_t patches = film.shape(of.shape).patch_count;
+  if (piece >= patches) {
+    const wire::Meshlet& meshlet = film.meshlets_of(of.shape)[piece - patches];
+    look(meshlet.skin, meshlet.vertex_count);
+    return follows;
+  }
+  for (const std::uint32_t stencil : film.net_patches_of(of.shape)[piece].stencils)
+    for (const wire::StencilTerm& term : film.terms_of(film.stencils()[stencil]))
+      look(film.net_points()[term.point].skin, 1);
+  return follows;
+}
+
+TEST(Division, OfSkinsInbetweensDrawWhatFollowsBonesThatMove) {
+  const wire::FilmData data = bending(240, 160, 5, 5);
+  const FilmBlock block(data);
+  const wire::PackedFilm film = block.view();
+  std::uint64_t moving = 0, all = 0;
+  for (const std::uint32_t segment : film.moving_segments(film.intervals()[0]))
+    for (std::size_t piece = 0; piece < film.shape(film.segments()[segment].shape).size(); ++piece, ++all)
+      moving += follows_moving(film, segment, piece);
+  ASSERT_LT(moving, all);
+  Counted counted;
+  run_counted(data, {1}, counted);
+  const auto inbetweens = of_kind(counted, FrameKind::inbetween);
+  ASSERT_EQ(inbetweens.size(), 4u);
+  for (const Strip& strip : inbetweens) EXPECT_EQ(strip.work.patches, moving) << "all are seen";
+}
+
 // Each node draws its own lines, and makes what touches them: no edge box twice, few patches twice, without a message.
 TEST_P(Division, NodesThatShareAnInbetweenDivideIt) {
   const int nodes = GetParam().nodes;

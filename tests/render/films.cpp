@@ -223,14 +223,17 @@ void FilmMaker::set_cameras(const std::vector<wire::Camera>& cameras) {
   film.cameras = cameras;
 }
 
+bool FilmMaker::changes(const wire::Track& track, std::uint32_t first, std::uint32_t end) const {
+  return std::any_of(film.changes.begin() + track.first, film.changes.begin() + track.first + track.count,
+                     [&](const wire::Change& c) { return c.frame > first && c.frame < end; });
+}
+
 bool FilmMaker::moves(std::uint32_t segment, std::uint32_t first, std::uint32_t end) const {
-  const auto changes = [&](const wire::Track& track) {
-    return std::any_of(film.changes.begin() + track.first, film.changes.begin() + track.first + track.count,
-                       [&](const wire::Change& c) { return c.frame > first && c.frame < end; });
-  };
   const wire::Segment& of = film.segments[segment];
   const auto bones = film.bones.begin() + of.first_bone;
-  return of.bone_count == 0 ? changes(of.motion) : std::any_of(bones, bones + of.bone_count, changes);
+  return of.bone_count == 0 ? changes(of.motion, first, end)
+                            : std::any_of(bones, bones + of.bone_count,
+                                          [&](const wire::Track& bone) { return changes(bone, first, end); });
 }
 
 wire::FilmData FilmMaker::make(std::uint32_t length) {
@@ -240,6 +243,9 @@ wire::FilmData FilmMaker::make(std::uint32_t length) {
     wire::Interval interval{first, end - first, static_cast<std::uint32_t>(film.moving.size()), 0};
     for (std::uint32_t s = 0; s < film.segments.size(); ++s)
       if (camera_moves_ || moves(s, first, end)) film.moving.push_back(s);
+    for (std::uint32_t bone = 0; bone < film.bones.size(); ++bone)
+      if (camera_moves_ || changes(film.bones[bone], first, end))
+        film.moving.push_back(static_cast<std::uint32_t>(film.segments.size()) + bone);
     interval.moving_count = static_cast<std::uint32_t>(film.moving.size()) - interval.first_moving;
     film.intervals.push_back(interval);
   }

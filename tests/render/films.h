@@ -46,6 +46,7 @@ class FilmMaker {
  private:
   wire::Track still(std::uint32_t value);
   wire::Track track_of(const std::vector<wire::Matrix>& motion);
+  bool changes(const wire::Track& track, std::uint32_t first, std::uint32_t end) const;
   bool moves(std::uint32_t segment, std::uint32_t first, std::uint32_t end) const;
 
   bool camera_moves_ = false;

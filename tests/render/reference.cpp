@@ -50,6 +50,7 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
   raster::PatchIdentity identity{scene.first_patch(segment), material, place.mirrors(),
                                  film.materials()[material].sides == 1, scene.moves(segment)};
   const auto add = [&](const shape::Surface& surface) {
+    identity.moving = scene.moves(segment, identity.patch - scene.first_patch(segment));
     const auto made = raster::plain_set_up(surface, scene.projection(), identity, scene.casting_count() > 0);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
     reference.moving.resize(reference.triangles.size(), identity.moving);

@@ -105,22 +105,40 @@ TEST(Skins, AreTheSameBitsFarFromTheWorldsOrigin) {
   }
 }
 
+// The lowest bone of each tube stands still, and so do all of one tube.
 TEST(Skins, HoldStillUntilABoneMoves) {
   const wire::FilmData film = bending(64, 40, 4, 4);
   ASSERT_EQ(film.intervals.size(), 1u);
-  EXPECT_EQ(film.moving, (std::vector<std::uint32_t>{2, 4, 5}));
+  std::vector<std::uint32_t> moving = {2, 4, 5};
+  for (const std::uint32_t segment : {2u, 4u, 5u})
+    for (std::uint32_t bone = 1; bone < film.segments[segment].bone_count; ++bone)
+      moving.push_back(static_cast<std::uint32_t>(film.segments.size()) + film.segments[segment].first_bone + bone);
+  EXPECT_EQ(film.moving, moving);
+  const FilmBlock block(film);
+  const wire::PackedFilm view = block.view();
+  geometry::Scene scene(view);
+  scene.set_interval(0);
+  for (const std::uint32_t segment : {2u, 4u, 5u}) {
+    const auto size = view.shape(film.segments[segment].shape).size();
+    std::uint64_t moving_pieces = 0;
+    for (std::size_t piece = 0; piece < size; ++piece) moving_pieces += scene.moves(segment, piece);
+    EXPECT_TRUE(scene.moves(segment) && scene.stands(segment));
+    EXPECT_GT(moving_pieces, size / 2) << segment;
+    EXPECT_LT(moving_pieces, size) << segment;
+  }
 }
 
 // A studio's view: an inbetween in which one bone stands elsewhere is the picture of the scene with that bone there.
 void expect_bent_in_live_views(wire::Blend blend) {
   wire::FilmData film = bending(96, 64, 1, 1, blend);
-  film.moving = {2};
-  film.intervals = {{0, 1, 0, 1}};
+  const std::uint32_t bone = film.segments[2].first_bone + 3;
+  const auto moved = static_cast<std::uint32_t>(film.segments.size()) + bone;
+  film.moving = {2, moved};
+  film.intervals = {{0, 1, 0, 2}};
   wire::FilmData scene = film, bent = film;
   scene.patches.clear(), scene.shapes.clear(), scene.meshlets.clear(), scene.mesh_places.clear();
   scene.mesh_normals.clear(), scene.mesh_triangles.clear(), scene.skin_bones.clear(), scene.skin_weights.clear();
   scene.net_points.clear(), scene.stencil_terms.clear(), scene.stencils.clear(), scene.net_patches.clear();
-  const std::uint32_t bone = film.segments[2].first_bone + 3;
   std::uint32_t& value = bent.changes[bent.bones[bone].first].value;
   wire::Matrix elsewhere = bent.matrices[value];
   elsewhere.m[0][3] += 0.4;
@@ -133,7 +151,6 @@ void expect_bent_in_live_views(wire::Blend blend) {
         LiveHost host;
         host.load(film);
         keyframe.frames[0] = host.finish(host.begin(0, scene)).pixels;
-        const auto moved = static_cast<std::uint32_t>(film.segments.size()) + bone;
         inbetween.frames[0] = host.finish(host.draw(0, {{{moved, 0, elsewhere}}, {}}, 1)).pixels;
       },
       [] {
@@ -170,7 +187,9 @@ void expect_swept(wire::Blend blend) {
     scene.set_frame(frame);
     for (const std::uint32_t segment : scene.movers()) {
       place.find(scene, segment);
+      std::size_t piece = film.shape(film.segments()[segment].shape).patch_count;
       for (const wire::Meshlet& meshlet : film.meshlets_of(film.segments()[segment].shape)) {
+        if (!scene.moves(segment, piece++)) continue;
         placer.place(place, film, meshlet, scene.projection());
         for (int v = 0; v < placer.vertex_count(); ++v) {
           const std::int32_t x = placer.vertices().x[v] / 256, y = placer.vertices().y[v] / 256;

@@ -62,8 +62,8 @@ bool same_stencil(const PackedFilm& a, const wire::Stencil& in_a, const PackedFi
 }
 
 bool same_net_patch(const PackedFilm& a, const wire::NetPatch& in_a, const PackedFilm& b, const wire::NetPatch& in_b) {
-  for (std::size_t i = 0; i < in_a.size(); ++i)
-    if (!same_stencil(a, a.stencils()[in_a[i]], b, b.stencils()[in_b[i]])) return false;
+  for (std::size_t i = 0; i < in_a.stencils.size(); ++i)
+    if (!same_stencil(a, a.stencils()[in_a.stencils[i]], b, b.stencils()[in_b.stencils[i]])) return false;
   return true;
 }
 

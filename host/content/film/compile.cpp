@@ -72,6 +72,9 @@ class Compiler {
 
   Cut cut(const FilmShapes& shapes) {
     data_.shapes = shapes.parts.shapes;
+    data_.meshlets = shapes.parts.meshlets;
+    data_.net_patches = shapes.parts.net_patches;
+    data_.skin_bones = shapes.parts.skin_bones;
     writer_.write_settings();
     writer_.write_segments(shapes.numbers);
     CompiledFilm::Lines matrices;

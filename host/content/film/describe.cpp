@@ -52,8 +52,8 @@ std::string table_of(const wire::PackedFilm& film) {
   for (const wire::Interval& interval : film.intervals()) {
     if (++row > kMostRows)
       return table + document::formatted("  ... and %zu more\n", film.intervals().size() - kMostRows);
-    table +=
-        document::formatted("  %11u %8u %17u\n", interval.first_frame, interval.frame_count, interval.moving_count);
+    table += document::formatted("  %11u %8u %17zu\n", interval.first_frame, interval.frame_count,
+                                 film.moving_segments(interval).size());
   }
   return table;
 }

@@ -32,7 +32,7 @@ std::string checksum_of_shape(const wire::PackedFilm& film, const wire::Shape& s
   Checksum sum;
   add(sum, film.patches().subspan(shape.first_patch, shape.patch_count));
   for (const wire::NetPatch& patch : film.net_patches_of(shape))
-    for (const std::uint32_t stencil : patch)
+    for (const std::uint32_t stencil : patch.stencils)
       for (const wire::StencilTerm& term : film.terms_of(film.stencils()[stencil])) {
         const wire::NetPoint& point = film.net_points()[term.point];
         add(sum, term.weight);

@@ -16,10 +16,7 @@ class Cutter {
  public:
   explicit Cutter(const wire::FilmData& film)
       : film_(film), global_(film.settings.frames, false), exposed_(film.settings.frames, false) {
-    for (const wire::Segment& segment : film.segments) {
-      weights_.push_back(double(film.shapes[segment.shape].size()));
-      all_ += weights_.back();
-    }
+    weigh_parts();
     mark_global(film.settings.camera);
     mark_exposure();
     for (const wire::Track& track : film.light_tracks) mark_global(track);
@@ -34,15 +31,15 @@ class Cutter {
     const double exchange = double(film_.settings.width) * film_.settings.height / kPixelsPerPatch;
     const auto [starts, changed] = changes_by_frame();
     std::vector<double> best(frames + 1, 0), last_moved(frames, 0);
-    std::vector<std::uint32_t> last_change(weights_.size(), 0), cut(frames + 1, 0);
+    std::vector<std::uint32_t> last_change(weights_.size(), 0), cut(frames + 1, 0);  // of parts, of frames
     std::uint32_t last_global = 0;
     for (std::uint32_t end = 1; end <= frames; ++end) {
       const std::uint32_t now = end - 1;
       for (std::uint32_t i = starts[now]; i < starts[end]; ++i) {
-        const std::uint32_t segment = changed[i];
-        if (last_change[segment] > 0) last_moved[last_change[segment]] -= weights_[segment];
-        last_moved[now] += weights_[segment];
-        last_change[segment] = now;
+        const std::uint32_t part = changed[i];
+        if (last_change[part] > 0) last_moved[last_change[part]] -= weights_[part];
+        last_moved[now] += weights_[part];
+        last_change[part] = now;
       }
       if (global_[now]) last_global = now;
       const double *best_of = best.data(), *moved = last_moved.data();
@@ -87,7 +84,7 @@ class Cutter {
       const std::uint32_t end = end_of(starts, i);
       const bool global =
           std::find(global_.begin() + starts[i] + 1, global_.begin() + end, true) != global_.begin() + end;
-      const wire::Track list = add_list(global ? everything() : movers[i], film);
+      const wire::Track list = add_list(global ? everything() : with_segments(movers[i]), film);
       film.intervals.push_back({starts[i], end - starts[i], list.first, list.count});
     }
   }
@@ -105,33 +102,66 @@ class Cutter {
     }
   }
 
-  // Calls visit(segment, frame) for every change of motion or material after frame 0, segment by segment.
-  template <typename Visit>
-  void visit_changes(Visit visit) const {
-    const wire::Change* changes = film_.changes.data();
-    for (std::uint32_t number = 0; number < film_.segments.size(); ++number) {
-      const auto visit_track = [&](const wire::Track& track) {
-        for (std::uint32_t i = 1; i < track.count; ++i) visit(number, changes[track.first + i].frame);
-      };
+  // A patch with a skin weighs for its bones in equal parts.
+  void weigh_parts() {
+    weights_.assign(film_.segments.size() + film_.bones.size(), 0);
+    for (std::size_t number = 0; number < film_.segments.size(); ++number) {
       const wire::Segment& segment = film_.segments[number];
-      if (segment.bone_count == 0) visit_track(segment.motion);
-      for (std::uint32_t i = 0; i < segment.bone_count; ++i) visit_track(film_.bones[segment.first_bone + i]);
-      visit_track(segment.material);
+      const wire::Shape& shape = film_.shapes[segment.shape];
+      all_ += double(shape.size());
+      if (segment.bone_count == 0) weights_[number] = double(shape.size());
+      for (std::uint32_t piece = 0; piece < shape.size() && segment.bone_count > 0; ++piece) {
+        const auto bones = bones_of_piece(shape, piece);
+        for (const std::uint32_t bone : bones) weights_[number_of(segment, bone)] += 1.0 / double(bones.size());
+      }
     }
   }
 
+  std::span<const std::uint32_t> bones_of_piece(const wire::Shape& shape, std::uint32_t piece) const {
+    const auto all = std::span(film_.skin_bones);
+    if (piece >= shape.patch_count) {
+      const wire::Skin& skin = film_.meshlets[shape.first_meshlet + piece - shape.patch_count].skin;
+      return all.subspan(skin.first_bone, skin.bone_count);
+    }
+    const wire::NetPatch& patch = film_.net_patches[shape.first_net_patch + piece];
+    return all.subspan(patch.first_bone, patch.bone_count);
+  }
+
+  // A part is a segment or a bone, numbered as wire::Interval does.
+  std::uint32_t number_of(const wire::Segment& segment, std::uint32_t bone) const {
+    return static_cast<std::uint32_t>(film_.segments.size()) + segment.first_bone + bone;
+  }
+
+  // Calls visit(part, frame) for every change of motion or material after frame 0, part by part.
+  template <typename Visit>
+  void visit_changes(Visit visit) const {
+    const auto visit_track = [&](std::uint32_t part, const wire::Track& track) {
+      for (std::uint32_t i = 1; i < track.count; ++i) visit(part, film_.changes[track.first + i].frame);
+    };
+    for (std::uint32_t number = 0; number < film_.segments.size(); ++number) {
+      const wire::Segment& segment = film_.segments[number];
+      if (segment.bone_count == 0) visit_track(number, segment.motion);
+      if (segment.bone_count == 0) visit_track(number, segment.material);
+    }
+    for (const wire::Segment& segment : film_.segments)
+      for (std::uint32_t bone = 0; bone < segment.bone_count; ++bone) {
+        visit_track(number_of(segment, bone), film_.bones[segment.first_bone + bone]);
+        visit_track(number_of(segment, bone), segment.material);
+      }
+  }
+
   struct ByFrame {
-    std::vector<std::size_t> starts;  // where each frame's segments begin; one more at the end
-    std::vector<std::uint32_t> segments;
+    std::vector<std::size_t> starts;  // where each frame's parts begin; one more at the end
+    std::vector<std::uint32_t> parts;
   };
 
   ByFrame changes_by_frame() const {
     ByFrame by_frame{std::vector<std::size_t>(film_.settings.frames + 2, 0), {}};
     visit_changes([&](std::uint32_t, std::uint32_t frame) { ++by_frame.starts[frame + 2]; });
     std::partial_sum(by_frame.starts.begin(), by_frame.starts.end(), by_frame.starts.begin());
-    by_frame.segments.resize(by_frame.starts.back());
+    by_frame.parts.resize(by_frame.starts.back());
     visit_changes(
-        [&](std::uint32_t segment, std::uint32_t frame) { by_frame.segments[by_frame.starts[frame + 1]++] = segment; });
+        [&](std::uint32_t part, std::uint32_t frame) { by_frame.parts[by_frame.starts[frame + 1]++] = part; });
     by_frame.starts.pop_back();
     return by_frame;
   }
@@ -148,14 +178,29 @@ class Cutter {
     return i + 1 < starts.size() ? starts[i + 1] : film_.settings.frames;
   }
 
-  // Of each interval, the segments that change after its first frame, ascending.
+  // Of each interval, the parts that change after its first frame, ascending, but for segments with a skin.
   std::vector<Frames> movers_of(const Frames& starts, const std::vector<std::uint32_t>& interval_of) const {
     std::vector<Frames> movers(starts.size());
-    visit_changes([&](std::uint32_t segment, std::uint32_t frame) {
+    visit_changes([&](std::uint32_t part, std::uint32_t frame) {
       Frames& list = movers[interval_of[frame]];
-      if (frame != starts[interval_of[frame]] && (list.empty() || list.back() != segment)) list.push_back(segment);
+      if (frame != starts[interval_of[frame]] && (list.empty() || list.back() != part)) list.push_back(part);
     });
     return movers;
+  }
+
+  // With the segments whose bones are among the parts.
+  Frames with_segments(Frames parts) const {
+    const auto bones = std::ranges::lower_bound(parts, film_.segments.size());
+    Frames segments;
+    for (std::uint32_t number = 0; number < film_.segments.size() && bones != parts.end(); ++number) {
+      const wire::Segment& segment = film_.segments[number];
+      const auto first = std::ranges::lower_bound(parts, number_of(segment, 0));
+      if (segment.bone_count > 0 && first != parts.end() && *first < number_of(segment, segment.bone_count))
+        segments.push_back(number);
+    }
+    parts.insert(parts.end(), segments.begin(), segments.end());
+    std::ranges::sort(parts);
+    return parts;
   }
 
   Frames everything() const {
@@ -182,7 +227,7 @@ class Cutter {
   const wire::FilmData& film_;
   std::vector<char> global_;     // frames at which camera or a light changes
   std::vector<char> exposed_;    // frames at which the camera's exposure changes
-  std::vector<double> weights_;  // patches and meshlets of each segment
+  std::vector<double> weights_;  // patches and meshlets of each part
   double all_ = 0;
 };
 

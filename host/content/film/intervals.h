@@ -1,9 +1,9 @@
-// Render intervals: cuts a film's frames, and lists for each interval the segments that move in it.
+// Render intervals: cuts a film's frames, and lists for each interval the segments and bones that move in it.
 //
 // What an interval costs, counted in patches (and meshlets) rendered: its first frame all patches of the film and the
-// exchange of CZB (pixels / kPixelsPerPatch); each other frame the patches of the segments that change
-// anywhere in the interval after its first frame, or all if camera or a light does. `automatic` finds the
-// cuts of least cost by dynamic programming over the frames, with intervals of at most kLongest frames:
+// exchange of CZB (pixels / kPixelsPerPatch); each other frame the patches of the segments that change anywhere in the
+// interval after its first frame, of skins those of the bones that do, or all if camera or a light does. `automatic`
+// finds the cuts of least cost by dynamic programming over the frames, with intervals of at most kLongest frames:
 // O(changes + frames * kLongest). Either way an interval begins wherever the camera's exposure changes.
 #pragma once
 

@@ -20,6 +20,13 @@ std::string_view bits_of(const std::vector<wire::Patch>& patches) {
   return {reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(wire::Patch)};
 }
 
+std::vector<std::uint32_t> bones_of(const modeler::ControlNet& net, const wire::PatchStencils& patch) {
+  std::vector<modeler::VertexBones> points;
+  for (const std::uint32_t stencil : patch)
+    for (const wire::StencilTerm& term : net.terms_of(net.stencils[stencil])) points.push_back(net.bones[term.point]);
+  return modeler::all_bones(points);
+}
+
 std::uint32_t bone_count(const modeler::SkinLists& lists) {
   return lists.bones.empty() ? 0 : *std::ranges::max_element(lists.bones) + 1;
 }
@@ -49,9 +56,11 @@ std::uint32_t ShapeWriter::add_net(const modeler::Shape& shape) {
   film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(shape.patches.size()), 0, 0,
                           bone_count(lists), std::uint32_t(film_.net_patches.size())});
   append(film_.patches, shape.patches);
-  for (wire::NetPatch patch : net.patches) {
-    for (std::uint32_t& number : patch) number += stencils;
-    film_.net_patches.push_back(patch);
+  for (const wire::PatchStencils& patch : net.patches) {
+    wire::NetPatch& added = film_.net_patches.emplace_back(wire::NetPatch{patch});
+    for (std::uint32_t& number : added.stencils) number += stencils;
+    const wire::Skin bones = placed(lists.add_bones(bones_of(net, patch)));
+    added.first_bone = bones.first_bone, added.bone_count = bones.bone_count;
   }
   append_lists(lists);
   return of_nets_.emplace_back(&net, std::uint32_t(film_.shapes.size() - 1)).second;

@@ -36,7 +36,7 @@ std::array<float, 3> rounded(const glm::dvec3& point) {
   return {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)};
 }
 
-wire::Patch rounded_patch(std::span<const glm::dvec3> points, const wire::NetPatch& numbers) {
+wire::Patch rounded_patch(std::span<const glm::dvec3> points, const wire::PatchStencils& numbers) {
   wire::Patch patch;
   for (std::size_t i = 0; i < numbers.size(); ++i) patch.points[i] = rounded(points[numbers[i]]);
   return patch;
@@ -69,7 +69,7 @@ std::vector<wire::Patch> patches_of(const MeanPatches& means, std::span<const gl
     for (const Term& term : mean) place += term.weight * points[term.point];
   }
   std::vector<wire::Patch> patches;
-  for (const wire::NetPatch& numbers : means.patches) patches.push_back(rounded_patch(places, numbers));
+  for (const wire::PatchStencils& numbers : means.patches) patches.push_back(rounded_patch(places, numbers));
   return patches;
 }
 
@@ -99,7 +99,7 @@ std::vector<glm::dvec3> means_of(const ControlNet& net, std::span<const glm::dve
 std::vector<wire::Patch> patches_of(const ControlNet& net, std::span<const glm::dvec3> moved) {
   const std::vector<glm::dvec3> means = means_of(net, moved);
   std::vector<wire::Patch> patches;
-  for (const wire::NetPatch& numbers : net.patches) patches.push_back(rounded_patch(means, numbers));
+  for (const wire::PatchStencils& numbers : net.patches) patches.push_back(rounded_patch(means, numbers));
   return patches;
 }
 

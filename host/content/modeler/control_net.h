@@ -35,7 +35,7 @@ Mean sum_of(std::span<const Share> shares);
 // Patches whose points are numbers of means; neighbours have the same.
 struct MeanPatches {
   std::vector<Mean> means;
-  std::vector<wire::NetPatch> patches;
+  std::vector<wire::PatchStencils> patches;
 };
 
 // With control points where they are here. As nodes hold them.
@@ -48,7 +48,7 @@ struct ControlNet {
   std::size_t columns = 0;                   // points in a row of a B-spline surface; of a cage, all
   std::vector<wire::StencilTerm> terms;
   std::vector<wire::Stencil> stencils;
-  std::vector<wire::NetPatch> patches;
+  std::vector<wire::PatchStencils> patches;
 
   std::span<const wire::StencilTerm> terms_of(const wire::Stencil& stencil) const {
     return std::span(terms).subspan(stencil.first_term, stencil.term_count);

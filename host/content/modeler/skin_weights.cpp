@@ -60,12 +60,16 @@ float weight_of(const VertexBones& point, std::uint32_t bone) {
 }
 
 wire::Skin SkinLists::add(std::span<const VertexBones> points) {
-  const std::vector<std::uint32_t> all = all_bones(points);
+  const wire::Skin skin = add_bones(all_bones(points));
+  for (const std::uint32_t bone : std::span(bones).last(skin.bone_count))
+    for (const VertexBones& point : points) weights.push_back(weight_of(point, bone));
+  return skin;
+}
+
+wire::Skin SkinLists::add_bones(std::span<const std::uint32_t> all) {
   const wire::Skin skin{static_cast<std::uint32_t>(bones.size()), static_cast<std::uint32_t>(all.size()),
                         static_cast<std::uint32_t>(weights.size())};
   bones.insert(bones.end(), all.begin(), all.end());
-  for (const std::uint32_t bone : all)
-    for (const VertexBones& point : points) weights.push_back(weight_of(point, bone));
   return skin;
 }
 

@@ -46,6 +46,8 @@ struct SkinLists {
   std::vector<float> weights;
 
   wire::Skin add(std::span<const VertexBones> points);
+  // A list alone.
+  wire::Skin add_bones(std::span<const std::uint32_t> all);
 };
 
 }  // namespace mars::modeler

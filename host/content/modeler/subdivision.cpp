@@ -357,13 +357,13 @@ class QuadPatches {
   }
 
   // u runs from corner 0 to corner 1, v from corner 0 to corner 3.
-  wire::NetPatch patch_of(std::uint32_t face) const {
+  wire::PatchStencils patch_of(std::uint32_t face) const {
     static constexpr std::size_t kCorner[] = {0, 3, 15, 12}, kInner[] = {5, 6, 10, 9};
     static constexpr std::size_t kSide[4][2] = {{1, 2}, {7, 11}, {14, 13}, {8, 4}};
     const auto points = static_cast<std::uint32_t>(topology_.points());
     const auto edges = static_cast<std::uint32_t>(topology_.edges().size());
     const auto& corners = topology_.faces()[face];
-    wire::NetPatch patch;
+    wire::PatchStencils patch;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t from = corners[i], number = topology_.edge_between(from, corners[(i + 1) % 4]);
       const std::uint32_t begins = topology_.edges()[number].ends[0] == from ? 0 : 1;

@@ -228,9 +228,11 @@ std::vector<std::uint32_t> Flow::moving_of(PageView& view, const Shot& scene, bo
     return {own.begin(), own.end()};
   }
   if (!view.interval) return {};
-  std::vector<std::uint32_t> changed = changed_segments(view.scene, scene);
-  if (view.moved && !view.interval->alone() && view.scene.moment->segments.size() == scene.moment->segments.size())
-    return joined(changed, view.interval->moving());
+  std::vector<std::uint32_t> changed = changed_parts(view.scene, scene);
+  const wire::FilmData &before = *view.scene.moment, &after = *scene.moment;
+  const bool same_numbers =
+      before.segments.size() == after.segments.size() && before.bones.size() == after.bones.size();
+  if (view.moved && !view.interval->alone() && same_numbers) return joined(changed, view.interval->moving());
   return changed;
 }
 

@@ -25,13 +25,6 @@ const wire::Matrix& bone_of(const wire::FilmData& scene, std::size_t bone) {
   return scene.matrices[scene.changes[scene.bones[bone].first].value];
 }
 
-bool same_bones(const wire::FilmData& one, const wire::FilmData& other, std::size_t segment) {
-  const wire::Segment &a = one.segments[segment], &b = other.segments[segment];
-  for (std::size_t bone = 0; bone < a.bone_count; ++bone)
-    if (!same_bits(bone_of(one, a.first_bone + bone), bone_of(other, b.first_bone + bone))) return false;
-  return true;
-}
-
 // Those of a segment that stand elsewhere.
 void add_bones(const wire::FilmData& was, const wire::FilmData& now, std::size_t segment, Moved& moved) {
   const wire::Segment& of = now.segments[segment];
@@ -57,6 +50,12 @@ bool same_lights(const wire::FilmData& one, const wire::FilmData& other) {
         other.lights[other.changes[other.light_tracks[i].first].value])
       return false;
   return true;
+}
+
+// As many segments, with as many bones each.
+bool same_skeleton(const wire::FilmData& one, const wire::FilmData& other) {
+  return std::equal(one.segments.begin(), one.segments.end(), other.segments.begin(), other.segments.end(),
+                    [](const wire::Segment& a, const wire::Segment& b) { return a.bone_count == b.bone_count; });
 }
 
 // The same segments of the same shapes, whatever these look like.
@@ -92,12 +91,7 @@ Interval::Interval(Shot scene, std::vector<std::uint32_t> moving)
     : scene_(std::move(scene)),
       moving_(std::move(moving)),
       moves_(scene_.moment->segments.size() + scene_.moment->bones.size(), char{0}) {
-  const std::vector<wire::Segment>& segments = scene_.moment->segments;
-  for (const std::uint32_t number : moving_) {
-    moves_[number] = 1;
-    for (std::size_t bone = 0; bone < segments[number].bone_count; ++bone)
-      moves_[segments.size() + segments[number].first_bone + bone] = 1;
-  }
+  for (const std::uint32_t number : moving_) moves_[number] = 1;
 }
 
 std::optional<std::uint32_t> Interval::material_like(const wire::Material& material, std::uint32_t likely) const {
@@ -135,20 +129,27 @@ bool Interval::holds(const Moved& moved) const {
 }
 
 bool same_picture(const Shot& one, const Shot& other) {
-  return same_surroundings(one, other) && changed_segments(one, other).empty();
+  return same_surroundings(one, other) && changed_parts(one, other).empty();
 }
 
-std::vector<std::uint32_t> changed_segments(const Shot& one, const Shot& other) {
+std::vector<std::uint32_t> changed_parts(const Shot& one, const Shot& other) {
   const wire::FilmData &before = *one.moment, &now = *other.moment;
-  std::vector<std::uint32_t> changed;
-  const bool all = before.segments.size() != now.segments.size() || !same_view(one, other) || !same_lights(before, now);
+  const bool all = !same_view(one, other) || !same_lights(before, now) || !same_skeleton(before, now);
   const bool pulled = before.patches.size() != now.patches.size() || !same_patches(before, now);
-  for (std::uint32_t segment = 0; segment < now.segments.size(); ++segment)
-    if (all || before.segments[segment].shape != now.segments[segment].shape ||
-        before.segments[segment].bone_count != now.segments[segment].bone_count ||
-        !same_bits(matrix_of(before, segment), matrix_of(now, segment)) || !same_bones(before, now, segment) ||
-        !(material_of(before, segment) == material_of(now, segment)) || (pulled && has_own_shape(now, segment)))
+  std::vector<std::uint32_t> changed, bones;
+  for (std::uint32_t segment = 0; segment < now.segments.size(); ++segment) {
+    const bool whole = all || before.segments[segment].shape != now.segments[segment].shape ||
+                       !(material_of(before, segment) == material_of(now, segment)) ||
+                       (pulled && has_own_shape(now, segment));
+    const std::size_t before_it = bones.size();
+    const wire::Segment& of = now.segments[segment];
+    for (std::uint32_t bone = of.first_bone; bone < of.first_bone + of.bone_count; ++bone)
+      if (whole || !same_bits(bone_of(before, bone), bone_of(now, bone)))
+        bones.push_back(static_cast<std::uint32_t>(now.segments.size()) + bone);
+    if (whole || bones.size() > before_it || !same_bits(matrix_of(before, segment), matrix_of(now, segment)))
       changed.push_back(segment);
+  }
+  changed.insert(changed.end(), bones.begin(), bones.end());
   return changed;
 }
 

@@ -28,14 +28,14 @@ struct Moved {
 
 class Interval {
  public:
-  // `moving`: the segments that may move, ascending.
+  // `moving`: what may move, as wire::Interval numbers it.
   Interval(Shot scene, std::vector<std::uint32_t> moving);
 
   std::span<const std::uint32_t> moving() const { return moving_; }
   // Everything moves, so that nothing is kept for inbetweens.
-  bool alone() const { return moving_.size() == scene_.moment->segments.size(); }
+  bool alone() const { return moving_.size() == moves_.size(); }
 
-  // None: something differs that no inbetween can show. Others than the moving segments may be among those moved.
+  // None: something differs that no inbetween can show. Others than `moving` may be among those moved.
   std::optional<Moved> moved_to(const Shot& now) const;
   // Whether an inbetween may show it.
   bool holds(const Moved& moved) const;
@@ -51,9 +51,9 @@ class Interval {
 // Whether both look the same.
 bool same_picture(const Shot& one, const Shot& other);
 
-// The numbers of the segments that the two show differently, ascending; of all where camera, lights or the segments
-// themselves differ.
-std::vector<std::uint32_t> changed_segments(const Shot& before, const Shot& now);
+// The segments and bones that the two show differently, as wire::Interval numbers them; all where camera, lights or the
+// segments themselves differ.
+std::vector<std::uint32_t> changed_parts(const Shot& before, const Shot& now);
 
 // Ascending numbers in either.
 std::vector<std::uint32_t> joined(std::span<const std::uint32_t> one, std::span<const std::uint32_t> other);

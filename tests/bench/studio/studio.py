@@ -40,7 +40,7 @@ CASES = ["demo drag one", "demo drag four", "demo orbit one", "demo orbit four",
          "demo drag slow", "demo orbit slow", "man drag one", "man orbit one"]
 FIGURE_CASES = ["figure drag one", "figure orbit one"]
 HEIGHT = "5.1"   # of the library's man
-DRAGGED = {"s2": " z ", "demo": " y ", "man": "forearm", "figure": "ForeArm"}  # is in the text of what is dragged
+DRAGGED = {"s2": " z ", "demo": "thigh", "man": "forearm", "figure": "ForeArm"}  # is in the text of what is dragged
 TARGETS = {("demo", "drag"): (50, 30), ("s2", "drag"): (100, 30), ("demo", "orbit"): (None, 24),
            ("s2", "orbit"): (None, 12)}
 PROGRAMS = {"nodes": "/mars-threads ", "studio": "/mars studio", "page": "--type=renderer",
@@ -162,6 +162,7 @@ def measure(build, case, seconds, figure):
         view = browser.run("return document.querySelector('[data-key=view-3]')")
         at = browser.find(view, DRAGGED[film], 0.2 if views == "slow" else 0.03)
         browser.move(*at)
+        dragged = browser.run("return arguments[0].querySelector('.tip').textContent", view).split(" ")[0]
         browser.press(*at, "left" if how == "drag" else "middle")
         move_for(browser, at, 1)  # the interval has begun
         roots = studio.process.pid, browser.driver.service.process.pid
@@ -176,6 +177,7 @@ def measure(build, case, seconds, figure):
         browser.release(*at)
         exact = until_exact(browser) if views == "slow" else None
         complaints = browser.console()
+    print(f"{case}: {how}s at {dragged}", flush=True)
     report(case, lasted, moves, latencies, pictures, {k: after[k] - before[k] for k in after}, complaints)
     if views == "slow":
         report_slow(latencies, lasted, pictures, exact)

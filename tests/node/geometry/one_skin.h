@@ -84,14 +84,14 @@ class OneSkin {
 
   // Of sixteen points of its own: every other is one of them, the others are means of two.
   static void add_net_patch(shape::Random& random, std::uint32_t bones, wire::FilmData& film) {
-    wire::NetPatch& patch = film.net_patches.emplace_back();
+    wire::NetPatch& patch = film.net_patches.emplace_back(wire::NetPatch{{}, 0, bones});
     const auto first = static_cast<std::uint32_t>(film.net_points.size());
     for (std::uint32_t i = 0; i < wire::kPatchPoints; ++i) {
       wire::NetPoint point{{}, {0, bones, static_cast<std::uint32_t>(film.skin_weights.size())}};
       for (float& coordinate : point.place) coordinate = static_cast<float>(random.real(0, 1));
       film.net_points.push_back(point);
       add_weights(random, 1, bones, film.skin_weights);
-      patch[i] = static_cast<std::uint32_t>(film.stencils.size());
+      patch.stencils[i] = static_cast<std::uint32_t>(film.stencils.size());
       const auto term = static_cast<std::uint32_t>(film.stencil_terms.size());
       if (i % 2 == 0) {
         film.stencils.push_back({term, 1});

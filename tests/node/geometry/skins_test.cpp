@@ -49,7 +49,8 @@ TEST(Skins, PatchesPointsAreMeansOfTheSumsBitForBit) {
       for (std::size_t point = 0; point < wire::kPatchPoints; ++point)
         for (std::size_t r = 0; r < 3; ++r) {
           float expected = 0;
-          for (const wire::StencilTerm& term : film.terms_of(film.stencils()[film.net_patches()[number][point]]))
+          for (const wire::StencilTerm& term :
+               film.terms_of(film.stencils()[film.net_patches()[number].stencils[point]]))
             expected += term.weight * moved_by_bones(film.net_points()[term.point], r);
           ASSERT_EQ(std::memcmp(&moved.point[point][r], &expected, sizeof(float)), 0) << bones << " bones";
         }

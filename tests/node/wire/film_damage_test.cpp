@@ -93,7 +93,10 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.stencils[1].first_term = 3; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.stencil_terms[2].point = 2; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.stencil_terms[1].point = 0; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0][15] = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].stencils[15] = 2; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].first_bone = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].bone_count = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].bone_count = 3; }));
   for (const float weight : {-0.5f, 0.0f, 0.7f, std::nanf("")})
     EXPECT_TRUE(refused([weight](FilmData& f) { f.stencil_terms[1].weight = weight; })) << weight;
   EXPECT_TRUE(refused([](FilmData& f) { f.skin_weights.back() = 0.4f; }));

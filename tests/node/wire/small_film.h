@@ -34,8 +34,8 @@ inline FilmData small_film() {
   film.skin_weights.insert(film.skin_weights.end(), 2, 0.5f);
   film.stencil_terms = {{0, 0.25f}, {1, 0.75f}, {1, 1}};
   film.stencils = {{0, 2}, {2, 1}};
-  film.net_patches.resize(1);
-  film.net_patches[0][5] = 1;
+  film.net_patches = {{{}, 0, 2}};
+  film.net_patches[0].stencils[5] = 1;
   film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}, {1, 1, 2, 1, 2, 0}};
   film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}, {2, 5, {0, 1}, {0, 1}, 0, 0, 2}};
   film.bones = {{0, 1}, {1, 3}};

@@ -107,7 +107,7 @@ TEST(Subdivision, OfACubeIsClosedAndRound) {
     const MeanPatches means = subdivided(cube(), level);
     EXPECT_EQ(means.patches.size(), 6u << 2 * level);
     std::vector<std::array<std::uint32_t, 4>> sides;
-    for (const wire::NetPatch& p : means.patches)
+    for (const wire::PatchStencils& p : means.patches)
       for (const std::array<std::size_t, 4>& side :
            {std::array<std::size_t, 4>{0, 1, 2, 3}, {3, 7, 11, 15}, {15, 14, 13, 12}, {12, 8, 4, 0}})
         sides.push_back({p[side[0]], p[side[1]], p[side[2]], p[side[3]]});
