@@ -142,15 +142,17 @@ void Tessellator::add_segment(const geometry::Scene& scene, std::size_t segment,
   if (touches == Touches::nothing) return;
   output.own = touches == Touches::perhaps ? output.all_own : nullptr;
   const std::uint32_t material = scene.material(segment);
-  raster::PatchIdentity identity{0, material, place_.mirrors(), film.materials()[material].sides == 1, moving};
+  raster::PatchIdentity identity{0, material, false, film.materials()[material].sides == 1, moving};
   for (; i < shape.patch_count; i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
+    identity.mirrored = place_.mirrors(film, i);
     add_patch(scene, i, identity, output);
   }
   for (const auto meshlets = film.meshlets_of(number); i < shape.size(); i = from(i + 1)) {
     look_now_and_then();
     identity.patch = first + static_cast<std::uint32_t>(i);
+    identity.mirrored = place_.mirrors(film, i);
     add_meshlet(scene, meshlets[i - shape.patch_count], identity, output);
   }
 }

@@ -175,13 +175,17 @@ Scene::Scene(const wire::PackedFilm& film)
   std::uint32_t next = 0;
   for (const wire::Segment& segment : film.segments()) {
     first_patch_.push_back(next);
-    next += static_cast<std::uint32_t>(film.shape(segment.shape).size());
+    const auto size = static_cast<std::uint32_t>(film.shape(segment.shape).size());
+    next += size;
+    first_skin_piece_.push_back(segment.bone_count > 0 ? piece_moves_.size() : kRigid);
+    if (segment.bone_count > 0) piece_moves_.resize(piece_moves_.size() + size);
     most_bones_ = std::max<std::size_t>(most_bones_, segment.bone_count);
   }
   const auto is_dual = [](const wire::Segment& s) { return s.blend == wire::Blend::dual_quaternions; };
   if (std::ranges::any_of(film.segments(), is_dual))
     for (const wire::Meshlet& meshlet : film.meshlets()) bone_pairs_.push_back(found_pairs(film, meshlet));
   moves_.resize(film.segments().size() + film.bones().size());
+  moving_pieces_.resize(film.segments().size());
   moved_at_.resize(film.segments().size() + film.bones().size());
   lights_.resize(film.light_tracks().size());
   light_order_.resize(lights_.size());
@@ -194,28 +198,35 @@ Scene::Scene(const wire::PackedFilm& film)
 void Scene::set_interval(std::uint32_t number) {
   const wire::Interval& interval = film_.intervals()[number];
   std::ranges::fill(moves_, std::uint8_t{0});
+  std::ranges::fill(moving_pieces_, 0u);
+  std::ranges::fill(piece_moves_, std::uint8_t{0});
   for (const std::uint32_t part : film_.moving(interval)) moves_[part] = 1;
   movers_ = film_.moving_segments(interval);
+  for (const std::uint32_t segment : movers_) moving_pieces_[segment] = mark_moving_pieces(segment);
+}
+
+std::uint32_t Scene::mark_moving_pieces(std::size_t segment) {
+  const wire::Segment& of = film_.segments()[segment];
+  const auto size = static_cast<std::uint32_t>(film_.shape(of.shape).size());
+  if (of.bone_count == 0) return size;
+  std::uint32_t count = 0;
+  for (std::uint32_t piece = 0; piece < size; ++piece) {
+    const bool moves = std::ranges::any_of(film_.bones_of_piece(of.shape, piece),
+                                           [&](std::uint32_t bone) { return bone_moves(segment, bone); });
+    piece_moves_[first_skin_piece_[segment] + piece] = moves;
+    count += moves;
+  }
+  return count;
 }
 
 bool Scene::stands(std::size_t segment) const {
-  if (!moves(segment)) return true;
-  const wire::Segment& of = film_.segments()[segment];
-  const auto bones = std::span(moves_).subspan(film_.segments().size() + of.first_bone, of.bone_count);
-  return std::ranges::count(bones, std::uint8_t{0}) > 0;
+  return moving_pieces_[segment] < film_.shape(film_.segments()[segment].shape).size();
 }
 
 bool Scene::any_stands() const {
   for (std::size_t segment = 0; segment < film_.segments().size(); ++segment)
     if (stands(segment)) return true;
   return false;
-}
-
-bool Scene::moves(std::size_t segment, std::size_t piece) const {
-  const wire::Segment& of = film_.segments()[segment];
-  if (!moves(segment) || of.bone_count == 0) return moves(segment);
-  return std::ranges::any_of(film_.bones_of_piece(of.shape, piece),
-                             [&](std::uint32_t bone) { return bone_moves(segment, bone); });
 }
 
 void Scene::set_frame(std::uint32_t frame) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -86,11 +87,16 @@ class Scene {
   std::span<const std::uint32_t> movers() const { return movers_; }
   bool any_moves() const { return !movers_.empty(); }
   bool moves(std::size_t segment) const { return moves_[segment] != 0; }
-  // Whether some of the segment, or of all, may stand still.
+  // How many of the segment's patches and meshlets move: of a skin those of which a bone does, else all or none.
+  std::uint32_t moving_pieces(std::size_t segment) const { return moving_pieces_[segment]; }
+  // Whether any of them stands still, and whether anything does.
   bool stands(std::size_t segment) const;
   bool any_stands() const;
-  // Of one of the segment's patches or meshlets, by its number in the shape: of a skin whether one of its bones moves.
-  bool moves(std::size_t segment, std::size_t piece) const;
+  // Of one of them, by its number in the shape.
+  bool moves(std::size_t segment, std::size_t piece) const {
+    const std::size_t first = first_skin_piece_[segment];
+    return first == kRigid ? moves(segment) : piece_moves_[first + piece] != 0;
+  }
   bool bone_moves(std::size_t segment, std::uint32_t bone) const {
     return moves_[film_.segments().size() + film_.segments()[segment].first_bone + bone] != 0;
   }
@@ -107,10 +113,17 @@ class Scene {
   std::uint32_t material(std::size_t segment) const;
 
  private:
+  static constexpr std::size_t kRigid = std::numeric_limits<std::size_t>::max();
+
+  std::uint32_t mark_moving_pieces(std::size_t segment);
+
   wire::PackedFilm film_;
   shape::Tolerances tolerances_;
   std::vector<std::uint32_t> first_patch_;
   std::vector<std::uint8_t> moves_;  // by segment, then by bone
+  std::vector<std::uint32_t> moving_pieces_;
+  std::vector<std::size_t> first_skin_piece_;  // by segment, among those of skins
+  std::vector<std::uint8_t> piece_moves_;      // of skins
   std::span<const std::uint32_t> movers_;
   std::vector<wire::MovedSegment> moved_;
   std::vector<std::uint32_t> moved_at_;  // by segment, then by bone: its place in moved_ and one; 0: it is not there

@@ -111,7 +111,9 @@ void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
   scale_ = largest > 0 ? std::ldexp(1.0f, -std::clamp(std::ilogb(largest), -100, 100)) : 1;
 }
 
-bool SegmentPlace::mirrors() const { return shape::mirrors(has_skin() ? bones_.matrices.front() : matrix_); }
+bool SegmentPlace::mirrors(const wire::PackedFilm& film, std::size_t piece) const {
+  return shape::mirrors(has_skin() ? bones_.matrices[film.bones_of_piece(shape_, piece).front()] : matrix_);
+}
 
 shape::EyePatch SegmentPlace::patch(const wire::PackedFilm& film, std::size_t number) const {
   if (!has_skin()) return shape::to_eye(matrix_, film.patches_of(shape_)[number]);

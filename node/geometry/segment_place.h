@@ -61,7 +61,8 @@ class SegmentPlace {
   void find(const Scene& scene, std::size_t segment);
 
   bool has_skin() const { return !bones_.matrices.empty(); }
-  bool mirrors() const;  // whether it turns shapes inside out; of a skin, whether its first bone does
+  // Whether it turns one of its shape's patches or meshlets inside out; of a skin, whether the piece's first bone does.
+  bool mirrors(const wire::PackedFilm& film, std::size_t piece) const;
   // Of a rigid segment.
   const shape::EyeMap& map() const { return map_; }
   // Of a skin, by number; and EyeSkin::scale, a power of two, with which segments that share vertices give these the

@@ -372,9 +372,7 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   const wire::PackedFilm& film = scene.film();
   const std::span<const std::uint32_t> movers = scene.movers();
   std::uint64_t pieces = 0;
-  for (const std::uint32_t segment : movers)
-    for (std::size_t piece = 0; piece < film.shape(film.segments()[segment].shape).size(); ++piece)
-      pieces += scene.moves(segment, piece);
+  for (const std::uint32_t segment : movers) pieces += scene.moving_pieces(segment);
   const bool any_still = scene.any_stands();
   Pieces hulls(scene, boxes, any_still && pieces * frames.size() <= kMostHulls, scratch_);
   std::optional<Shadows> shadows;

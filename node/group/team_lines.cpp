@@ -50,13 +50,16 @@ void TeamLines::add_segment(const geometry::Scene& scene, std::uint32_t segment,
   points_ += 8;
   if (all.lines.count() == 0) return;
   if (all.lines.count() * 4 * nodes <= static_cast<std::size_t>(scene.height()))
-    return add(all, film.shape(number).size(), scene);
+    return add(all, scene.moving_pieces(segment), scene);
+  std::size_t piece_number = 0;
   for (std::size_t patch = 0; patch < film.patches_of(number).size(); ++patch) {
+    if (!scene.moves(segment, piece_number++)) continue;
     const shape::EyePatch piece = place_.patch(film, patch);
     add(geometry::picture_box(piece.point, 16, scene.projection(), size_of(scene)), 1, scene);
     points_ += 16;
   }
   for (const wire::Meshlet& meshlet : film.meshlets_of(number)) {
+    if (!scene.moves(segment, piece_number++)) continue;
     add(geometry::picture_box(place_.corners(film, meshlet), scene.projection(), size_of(scene)), 1, scene);
     points_ += 8;
   }

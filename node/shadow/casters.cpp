@@ -72,8 +72,8 @@ bool casts(const geometry::Scene& scene, std::size_t segment, Casting casting) {
          scene.film().materials()[scene.material(segment)].casts == 1;
 }
 
-// Of a segment of which some does.
-bool casts(const geometry::Scene& scene, std::size_t segment, std::size_t piece, Casting casting) {
+// Whether the piece moves, or stands still, as `casting` says.
+bool is_of(Casting casting, const geometry::Scene& scene, std::size_t segment, std::size_t piece) {
   return scene.moves(segment, piece) == (casting == Casting::moving);
 }
 
@@ -173,7 +173,7 @@ std::span<const ChunkCaster> CasterStream::next(const Matters& matters) {
     const wire::Shape& shape = film.shape(number);
     place_.find(*scene_, segment_);
     for (; item_ < shape.size(); ++item_) {
-      if (!casts(*scene_, segment_, item_, casting_)) continue;
+      if (!is_of(casting_, *scene_, segment_, item_)) continue;
       if (!store_.has_room() || chunk_.size() == store_.most()) return chunk_;
       add_item(shape, number, matters);
     }
@@ -210,7 +210,7 @@ void CasterStream::visit_hulls(const geometry::Scene& scene, Casting casting,
     const std::size_t patches = film.patches_of(number).size();
     const auto meshlets = film.meshlets_of(number);
     for (std::size_t piece = 0; piece < film.shape(number).size(); ++piece)
-      if (casts(scene, s, piece, casting))
+      if (is_of(casting, scene, s, piece))
         visit(piece < patches ? hull_of(place_.patch(film, piece))
                               : hull_of(place_.corners(film, meshlets[piece - patches])));
   }

@@ -332,13 +332,26 @@ void PackedFilm::check_bones(const Shape& shape, const std::string& where) const
   for (const Meshlet& meshlet : meshlets_.subspan(shape.first_meshlet, shape.meshlet_count)) check_bones(meshlet.skin);
   if (shape.bone_count == 0) return;
   require(within(shape.first_net_patch, shape.patch_count, net_patches_.size()), where, "a shape has no such net");
-  for (const NetPatch& patch : net_patches_of(shape))
+  for (const NetPatch& patch : net_patches_of(shape)) {
     for (const std::uint32_t stencil : patch.stencils)
-      for (const StencilTerm& term : terms_of(stencils_[stencil])) {
-        const Skin& skin = net_points_[term.point].skin;
-        check_bones(skin);
-        require(std::ranges::includes(bones_of(patch), bones_of(skin)), where, "a net's patch lacks a bone");
+      for (const StencilTerm& term : terms_of(stencils_[stencil])) check_bones(net_points_[term.point].skin);
+    check_patch_bones(patch, where);
+  }
+}
+
+// Of all its points, and no other.
+void PackedFilm::check_patch_bones(const NetPatch& patch, const std::string& where) const {
+  require(patch.bone_count <= kPatchPoints * kMostTerms * kMostPointBones, where, "a net's patch has too many bones");
+  const auto bones = bones_of(patch);
+  std::vector<bool> followed(bones.size());
+  for (const std::uint32_t stencil : patch.stencils)
+    for (const StencilTerm& term : terms_of(stencils_[stencil]))
+      for (const std::uint32_t bone : bones_of(net_points_[term.point].skin)) {
+        const auto known = std::ranges::lower_bound(bones, bone);
+        require(known != bones.end() && *known == bone, where, "a net's patch lacks a bone");
+        followed[static_cast<std::size_t>(known - bones.begin())] = true;
       }
+  require(std::ranges::count(followed, false) == 0, where, "a net's patch has a bone that its points do not follow");
 }
 
 void PackedFilm::check_nets(const std::string& where) const {
@@ -373,7 +386,7 @@ void PackedFilm::check_intervals(const std::string& where) const {
     next += interval.frame_count;
     const bool inside =
         interval.first_moving <= moving_.size() && interval.moving_count <= moving_.size() - interval.first_moving;
-    require(inside, where, "an interval has no such moving segments");
+    require(inside, where, "an interval has no such moving parts");
     const auto list = moving(interval);
     const bool ascending = std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
     const bool known = list.empty() || list.back() < segments_.size() + bones_.size();

@@ -165,6 +165,7 @@ class PackedFilm {
   void check_all(const std::string& where) const;
   void check_meshlets(const std::string& where) const;
   void check_bones(const Shape& shape, const std::string& where) const;
+  void check_patch_bones(const NetPatch& patch, const std::string& where) const;
   void check_nets(const std::string& where) const;
   void check_bone_list(std::uint32_t first, std::uint32_t count, const std::string& where) const;
   void check_skin(const Skin& skin, std::uint32_t points, const std::string& where) const;

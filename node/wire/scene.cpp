@@ -22,6 +22,11 @@ MovingParts::MovingParts(const PackedFilm& scene)
   const auto moving = scene.moving(scene.intervals().front());
   moving_ = moving.size();
   for (const std::uint32_t number : moving) segments_[number] = 1;
+  for (const std::uint32_t number : scene.moving_segments(scene.intervals().front())) {
+    const Segment& segment = scene.segments()[number];
+    const auto bones = std::span(segments_).subspan(scene.segments().size() + segment.first_bone, segment.bone_count);
+    segments_[number] = std::ranges::count(bones, std::uint8_t{0}) == 0;
+  }
   const std::size_t base = scene.shape_count() - scene.shapes().size();
   for (const std::uint8_t moves : {std::uint8_t{1}, std::uint8_t{0}}) {
     std::vector<std::uint8_t> shown(scene.shapes().size());

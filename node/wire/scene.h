@@ -1,7 +1,7 @@
 // A scene: one moment of a film, seen by one camera, as a live view shows it. The scene block is a packed film (film.h)
-// of one frame and one interval, whose moving segments are those that the view's inbetweens may change. It has no
-// meshes; its shapes and patches are those that differ from the loaded film's: shape numbers below the film's are the
-// film's own, those from there on are the block's, whose patches count from the block's first.
+// of one frame and one interval, whose moving segments and bones are those that the view's inbetweens may change. It
+// has no meshes; its shapes and patches are those that differ from the loaded film's: shape numbers below the film's
+// are the film's own, those from there on are the block's, whose patches count from the block's first.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,8 @@ class MovingParts {
   MovingParts() = default;
   explicit MovingParts(const PackedFilm& scene);
 
-  // As MovedSegment numbers segments and bones.
+  // As MovedSegment numbers segments and bones. A segment with a skin may be changed, for what it is made of, where all
+  // its bones move.
   bool has_segment(std::size_t segment) const { return segment < segments_.size() && segments_[segment] == 1; }
   bool has_patch(std::size_t patch) const { return patch < patches_.size() && patches_[patch] == 1; }
   // Of the scene's, which a segment may be made of.

@@ -48,6 +48,7 @@ std::vector<Case> cases() {
     all.push_back({"models" + of, with_samples(richly_lit(crowd(96, 54, 3, 3)), samples)});
     all.push_back({"flight" + of, with_samples(flight(64, 36, 2), samples)});
     all.push_back({"balls" + of, with_samples(balls(), samples)});
+    all.push_back({"skins" + of, with_samples(bending(72, 54, 3, 3), samples)});
   }
   all.push_back({"ties", ties(48, 36)});
   all.push_back({"orthographic", orthographic(casting(richly_lit(with_samples(crowd(64, 36, 3, 3), 4)), {0.0f}))});

@@ -47,10 +47,12 @@ void add_segment(const geometry::Scene& scene, std::size_t segment, Surfaces& su
   geometry::SegmentPlace place;
   place.find(scene, segment);
   const std::uint32_t material = scene.material(segment);
-  raster::PatchIdentity identity{scene.first_patch(segment), material, place.mirrors(),
-                                 film.materials()[material].sides == 1, scene.moves(segment)};
+  raster::PatchIdentity identity{scene.first_patch(segment), material, false, film.materials()[material].sides == 1,
+                                 scene.moves(segment)};
   const auto add = [&](const shape::Surface& surface) {
-    identity.moving = scene.moves(segment, identity.patch - scene.first_patch(segment));
+    const std::size_t piece = identity.patch - scene.first_patch(segment);
+    identity.moving = scene.moves(segment, piece);
+    identity.mirrored = place.mirrors(film, piece);
     const auto made = raster::plain_set_up(surface, scene.projection(), identity, scene.casting_count() > 0);
     reference.triangles.insert(reference.triangles.end(), made.begin(), made.end());
     reference.moving.resize(reference.triangles.size(), identity.moving);

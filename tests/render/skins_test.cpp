@@ -128,6 +128,29 @@ TEST(Skins, HoldStillUntilABoneMoves) {
   }
 }
 
+// The lowest bone of a tube that is seen from outside only turns inside out; what follows others alone stays as it was
+// drawn in the keyframe.
+TEST(Skins, PiecesTurnInsideOutWithTheirOwnBones) {
+  wire::FilmData film = with_samples(bending(120, 80, 3, 3), 4);
+  const wire::Segment& tube = film.segments[4];
+  ASSERT_EQ(film.materials[film.changes[tube.material.first].value].sides, 1u);
+  const wire::Track before = film.bones[tube.first_bone];
+  const std::uint32_t value = film.changes[before.first].value;
+  wire::Matrix flipped = film.matrices[value];
+  for (auto& row : flipped.m) row[3] += row[0], row[0] = -row[0];
+  film.bones[tube.first_bone] = {static_cast<std::uint32_t>(film.changes.size()), 2};
+  film.changes.insert(film.changes.end(), {{0, value}, {1, static_cast<std::uint32_t>(film.matrices.size())}});
+  film.matrices.push_back(flipped);
+  // Of the tube only its lowest bone moves.
+  const auto bone_number = static_cast<std::uint32_t>(film.segments.size()) + tube.first_bone;
+  for (std::uint32_t bone = 1; bone < tube.bone_count; ++bone) film.bones[tube.first_bone + bone].count = 1;
+  std::erase_if(film.moving,
+                [&](std::uint32_t part) { return part >= bone_number && part < bone_number + tube.bone_count; });
+  film.moving.insert(std::ranges::lower_bound(film.moving, bone_number), bone_number);
+  film.intervals[0].moving_count = static_cast<std::uint32_t>(film.moving.size());
+  expect_same(run_film(FilmBlock(film).bytes(), {}), from_scratch(film), film.settings, "skins-inside-out");
+}
+
 // A studio's view: an inbetween in which one bone stands elsewhere is the picture of the scene with that bone there.
 void expect_bent_in_live_views(wire::Blend blend) {
   wire::FilmData film = bending(96, 64, 1, 1, blend);

@@ -150,7 +150,7 @@ class Comparison {
     }
   }
 
-  // Goes through the intervals of both films together: in two that overlap, the same segments must move.
+  // Goes through the intervals of both films together: in two that overlap, the same segments and bones must move.
   void compare_movers() {
     const auto end_of = [](const wire::Interval& interval) { return interval.first_frame + interval.frame_count; };
     for (std::size_t i = 0, j = 0, frame = 0; frame < frames_;) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <vector>
 
@@ -105,16 +106,28 @@ class Cutter {
   // A patch with a skin weighs for its bones in equal parts.
   void weigh_parts() {
     weights_.assign(film_.segments.size() + film_.bones.size(), 0);
-    for (std::size_t number = 0; number < film_.segments.size(); ++number) {
+    owners_.resize(film_.bones.size());
+    std::map<std::uint32_t, std::vector<double>> of_bones;  // by shape
+    for (std::uint32_t number = 0; number < film_.segments.size(); ++number) {
       const wire::Segment& segment = film_.segments[number];
       const wire::Shape& shape = film_.shapes[segment.shape];
       all_ += double(shape.size());
       if (segment.bone_count == 0) weights_[number] = double(shape.size());
-      for (std::uint32_t piece = 0; piece < shape.size() && segment.bone_count > 0; ++piece) {
-        const auto bones = bones_of_piece(shape, piece);
-        for (const std::uint32_t bone : bones) weights_[number_of(segment, bone)] += 1.0 / double(bones.size());
-      }
+      if (segment.bone_count == 0) continue;
+      std::fill_n(owners_.begin() + segment.first_bone, segment.bone_count, number);
+      const auto [known, is_new] = of_bones.try_emplace(segment.shape);
+      if (is_new) known->second = weights_of_bones(shape);
+      std::ranges::copy(known->second, weights_.begin() + number_of(segment, 0));
     }
+  }
+
+  std::vector<double> weights_of_bones(const wire::Shape& shape) const {
+    std::vector<double> weights(shape.bone_count);
+    for (std::uint32_t piece = 0; piece < shape.size(); ++piece) {
+      const auto bones = bones_of_piece(shape, piece);
+      for (const std::uint32_t bone : bones) weights[bone] += 1.0 / double(bones.size());
+    }
+    return weights;
   }
 
   std::span<const std::uint32_t> bones_of_piece(const wire::Shape& shape, std::uint32_t piece) const {
@@ -140,8 +153,9 @@ class Cutter {
     };
     for (std::uint32_t number = 0; number < film_.segments.size(); ++number) {
       const wire::Segment& segment = film_.segments[number];
-      if (segment.bone_count == 0) visit_track(number, segment.motion);
-      if (segment.bone_count == 0) visit_track(number, segment.material);
+      if (segment.bone_count > 0) continue;
+      visit_track(number, segment.motion);
+      visit_track(number, segment.material);
     }
     for (const wire::Segment& segment : film_.segments)
       for (std::uint32_t bone = 0; bone < segment.bone_count; ++bone) {
@@ -190,14 +204,12 @@ class Cutter {
 
   // With the segments whose bones are among the parts.
   Frames with_segments(Frames parts) const {
-    const auto bones = std::ranges::lower_bound(parts, film_.segments.size());
     Frames segments;
-    for (std::uint32_t number = 0; number < film_.segments.size() && bones != parts.end(); ++number) {
-      const wire::Segment& segment = film_.segments[number];
-      const auto first = std::ranges::lower_bound(parts, number_of(segment, 0));
-      if (segment.bone_count > 0 && first != parts.end() && *first < number_of(segment, segment.bone_count))
-        segments.push_back(number);
-    }
+    for (const std::uint32_t part : parts)
+      if (part >= film_.segments.size())
+        if (const std::uint32_t owner = owners_[part - film_.segments.size()];
+            segments.empty() || segments.back() != owner)
+          segments.push_back(owner);
     parts.insert(parts.end(), segments.begin(), segments.end());
     std::ranges::sort(parts);
     return parts;
@@ -225,9 +237,10 @@ class Cutter {
   }
 
   const wire::FilmData& film_;
-  std::vector<char> global_;     // frames at which camera or a light changes
-  std::vector<char> exposed_;    // frames at which the camera's exposure changes
-  std::vector<double> weights_;  // patches and meshlets of each part
+  std::vector<char> global_;           // frames at which camera or a light changes
+  std::vector<char> exposed_;          // frames at which the camera's exposure changes
+  std::vector<double> weights_;        // patches and meshlets of each part
+  std::vector<std::uint32_t> owners_;  // of each bone the number of its segment
   double all_ = 0;
 };
 

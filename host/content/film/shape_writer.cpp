@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 #include "hal/failure/failure.h"
 #include "host/content/modeler/meshlets.h"
@@ -20,11 +21,26 @@ std::string_view bits_of(const std::vector<wire::Patch>& patches) {
   return {reinterpret_cast<const char*>(patches.data()), patches.size() * sizeof(wire::Patch)};
 }
 
-std::vector<std::uint32_t> bones_of(const modeler::ControlNet& net, const wire::PatchStencils& patch) {
+// By stencil, the bones that its points follow, ascending.
+std::vector<std::vector<std::uint32_t>> bones_of_stencils(const modeler::ControlNet& net) {
+  std::vector<std::vector<std::uint32_t>> bones;
   std::vector<modeler::VertexBones> points;
-  for (const std::uint32_t stencil : patch)
-    for (const wire::StencilTerm& term : net.terms_of(net.stencils[stencil])) points.push_back(net.bones[term.point]);
-  return modeler::all_bones(points);
+  for (const wire::Stencil& stencil : net.stencils) {
+    points.clear();
+    for (const wire::StencilTerm& term : net.terms_of(stencil)) points.push_back(net.bones[term.point]);
+    bones.push_back(modeler::all_bones(points));
+  }
+  return bones;
+}
+
+std::vector<std::uint32_t> joined(std::span<const std::vector<std::uint32_t>> of_stencils,
+                                  const wire::PatchStencils& patch) {
+  std::vector<std::uint32_t> all;
+  for (const std::uint32_t stencil : patch) append(all, of_stencils[stencil]);
+  std::ranges::sort(all);
+  const auto again = std::ranges::unique(all);
+  all.erase(again.begin(), again.end());
+  return all;
 }
 
 std::uint32_t bone_count(const modeler::SkinLists& lists) {
@@ -56,10 +72,11 @@ std::uint32_t ShapeWriter::add_net(const modeler::Shape& shape) {
   film_.shapes.push_back({std::uint32_t(film_.patches.size()), std::uint32_t(shape.patches.size()), 0, 0,
                           bone_count(lists), std::uint32_t(film_.net_patches.size())});
   append(film_.patches, shape.patches);
+  const auto of_stencils = bones_of_stencils(net);
   for (const wire::PatchStencils& patch : net.patches) {
     wire::NetPatch& added = film_.net_patches.emplace_back(wire::NetPatch{patch});
     for (std::uint32_t& number : added.stencils) number += stencils;
-    const wire::Skin bones = placed(lists.add_bones(bones_of(net, patch)));
+    const wire::Skin bones = placed(lists.add_bones(joined(of_stencils, patch)));
     added.first_bone = bones.first_bone, added.bone_count = bones.bone_count;
   }
   append_lists(lists);
@@ -74,7 +91,7 @@ wire::Skin ShapeWriter::placed(wire::Skin skin) const {
 }
 
 void ShapeWriter::append_lists(const modeler::SkinLists& lists) {
-  if (film_.skin_weights.size() + lists.weights.size() > kMost)
+  if (film_.skin_weights.size() + lists.weights.size() > kMost || film_.skin_bones.size() + lists.bones.size() > kMost)
     throw Failure("have more than 4294967295 weights", "skins", "use fewer or smaller skins");
   append(film_.skin_bones, lists.bones);
   append(film_.skin_weights, lists.weights);

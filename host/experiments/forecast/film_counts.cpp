@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/images/picture_bands.h"
+#include "host/render/farm/rough_work.h"
 
 namespace mars::forecast {
 namespace {
@@ -126,10 +127,7 @@ void FilmCount::count_inbetweens(std::size_t task, std::size_t count) {
 }
 
 double FilmCount::moving_patches(const farm::Task& task) const {
-  double patches = 1;
-  for (const std::uint32_t segment : film_.moving(film_.intervals()[task.interval]))
-    patches += film_.shapes()[film_.segments()[segment].shape].size();
-  return patches;
+  return 1 + farm::moving_patches(film_, film_.intervals()[task.interval]);
 }
 
 // As in the nearest task whose frames of this kind were counted; of inbetweens as much as its moving parts are.

@@ -21,17 +21,21 @@ double moving_share(const wire::PackedFilm& film, std::span<const std::uint32_t>
 
 }  // namespace
 
+double moving_patches(const wire::PackedFilm& film, const wire::Interval& interval) {
+  double patches = 0;
+  for (const std::uint32_t number : film.moving_segments(interval)) {
+    const wire::Segment& segment = film.segments()[number];
+    patches +=
+        static_cast<double>(film.shapes()[segment.shape].size()) * moving_share(film, film.moving(interval), segment);
+  }
+  return patches;
+}
+
 RoughWork rough_work(const wire::PackedFilm& film, const wire::Interval& interval) {
   const wire::FilmSettings& settings = film.settings();
   const double samples = static_cast<double>(settings.width) * settings.height * settings.samples;
-  double moving = 0;
-  for (const std::uint32_t number : film.moving_segments(interval)) {
-    const wire::Segment& segment = film.segments()[number];
-    moving +=
-        static_cast<double>(film.shapes()[segment.shape].size()) * moving_share(film, film.moving(interval), segment);
-  }
   return {static_cast<double>(film.patch_instances()) * kPatch + samples * kSample,
-          moving * kPatch + samples * kSample * kRedrawn};
+          moving_patches(film, interval) * kPatch + samples * kSample * kRedrawn};
 }
 
 }  // namespace mars::farm

@@ -12,6 +12,9 @@ struct RoughWork {
   double inbetween = 0;
 };
 
+// Patches and meshlets that move in the interval; of skins by the share of bones that do.
+double moving_patches(const wire::PackedFilm& film, const wire::Interval& interval);
+
 RoughWork rough_work(const wire::PackedFilm& film, const wire::Interval& interval);
 
 }  // namespace mars::farm

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <iterator>
 #include <numeric>
+#include <span>
 
 namespace mars::studio {
 namespace {
@@ -23,6 +24,11 @@ const wire::Matrix& matrix_of(const wire::FilmData& scene, std::size_t segment) 
 
 const wire::Matrix& bone_of(const wire::FilmData& scene, std::size_t bone) {
   return scene.matrices[scene.changes[scene.bones[bone].first].value];
+}
+
+// Of a skin its bones alone decide.
+bool same_place(const wire::FilmData& one, const wire::FilmData& other, std::size_t segment) {
+  return one.segments[segment].bone_count > 0 || same_bits(matrix_of(one, segment), matrix_of(other, segment));
 }
 
 // Those of a segment that stand elsewhere.
@@ -92,6 +98,12 @@ Interval::Interval(Shot scene, std::vector<std::uint32_t> moving)
       moving_(std::move(moving)),
       moves_(scene_.moment->segments.size() + scene_.moment->bones.size(), char{0}) {
   for (const std::uint32_t number : moving_) moves_[number] = 1;
+  for (std::size_t number = 0; number < scene_.moment->segments.size(); ++number) {
+    const wire::Segment& segment = scene_.moment->segments[number];
+    const auto bones =
+        std::span(moves_).subspan(scene_.moment->segments.size() + segment.first_bone, segment.bone_count);
+    if (std::ranges::count(bones, char{0}) > 0) moves_[number] = 0;
+  }
 }
 
 std::optional<std::uint32_t> Interval::material_like(const wire::Material& material, std::uint32_t likely) const {
@@ -111,7 +123,7 @@ std::optional<Moved> Interval::moved_to(const Shot& scene) const {
     const auto material = material_like(material_of(now, segment), before);
     if (!material) return std::nullopt;
     add_bones(was, now, segment, moved);
-    if (material == before && same_bits(matrix_of(was, segment), matrix_of(now, segment))) continue;
+    if (material == before && same_place(was, now, segment)) continue;
     moved.segments.push_back({segment, *material, matrix_of(now, segment)});
   }
   for (std::uint32_t patch = 0; patch < now.patches.size(); ++patch)
@@ -146,8 +158,7 @@ std::vector<std::uint32_t> changed_parts(const Shot& one, const Shot& other) {
     for (std::uint32_t bone = of.first_bone; bone < of.first_bone + of.bone_count; ++bone)
       if (whole || !same_bits(bone_of(before, bone), bone_of(now, bone)))
         bones.push_back(static_cast<std::uint32_t>(now.segments.size()) + bone);
-    if (whole || bones.size() > before_it || !same_bits(matrix_of(before, segment), matrix_of(now, segment)))
-      changed.push_back(segment);
+    if (whole || bones.size() > before_it || !same_place(before, now, segment)) changed.push_back(segment);
   }
   changed.insert(changed.end(), bones.begin(), bones.end());
   return changed;

@@ -45,7 +45,8 @@ class Interval {
 
   Shot scene_;
   std::vector<std::uint32_t> moving_;
-  std::vector<char> moves_;  // of each segment, then of each bone
+  // Of each segment, then of each bone; of a segment with a skin, whether all its bones do.
+  std::vector<char> moves_;
 };
 
 // Whether both look the same.

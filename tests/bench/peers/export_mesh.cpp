@@ -15,10 +15,11 @@ namespace {
 
 void check_plain(const wire::PackedFilm& film, const std::string& where) {
   check_look(film, where);
+  if (!film.bones().empty()) refuse("skins", where);
   if (film.settings().dice == 0) refuse("adaptive dicing", where);
   if (film.settings().camera.count != 1) refuse("a camera that moves", where);
   if (film.intervals().size() > 1) refuse("several render intervals", where);
-  if (film.moving(film.intervals()[0]).size() > 1) refuse("several moving segments", where);
+  if (film.moving_segments(film.intervals()[0]).size() > 1) refuse("several moving segments", where);
 }
 
 void add_patch(const shape::Dicer& diced, MeshPatch part, Mesh& mesh) {

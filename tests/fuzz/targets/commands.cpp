@@ -112,9 +112,12 @@ void read_begin_view(std::span<const std::byte> message) {
   scene.set_interval(0);
   scene.set_frame(0);
   for (std::uint32_t s = 0; s < view.segments().size(); ++s) {
-    check(scene.moves(s) == moving.has_segment(s) && scene.material(s) < moving.materials(),
-          "segments are the scene's");
     const std::uint32_t shape = view.segments()[s].shape;
+    const bool changes = view.segments()[s].bone_count > 0 ? !scene.stands(s) : true;
+    check(!moving.has_segment(s) || (scene.moves(s) && changes), "of what may be changed all moves");
+    check(scene.material(s) < moving.materials(), "segments are the scene's");
+    for (std::size_t piece = 0; piece < view.shape(shape).size(); ++piece)
+      check(scene.moves(s) || !scene.moves(s, piece), "pieces move with their segments");
     check(view.patches_of(shape).size() + view.meshlets_of(shape).size() == view.shape(shape).size(),
           "shapes are whole");
     for (const wire::Patch& patch : view.patches_of(shape)) check(wire::sound(patch), "patches are sound");

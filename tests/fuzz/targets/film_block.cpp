@@ -37,6 +37,8 @@ void read_all(const wire::PackedFilm& film) {
     scene.set_interval(i);
     const std::uint32_t frame = film.intervals()[i].first_frame;
     scene.set_frame(frame);
+    for (std::size_t segment = 0; segment < film.segments().size(); ++segment)
+      check(scene.moves(segment) || scene.moving_pieces(segment) == 0, "pieces move with their segments");
     geometry::Sweep().begin(scene, {&frame, 1}, boxes, [](const geometry::PictureBounds&) {});
   }
   read_shapes(scene, boxes, last);

@@ -10,6 +10,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/failure/failure.h"
@@ -335,7 +336,8 @@ TEST(Scenes, AreRefusedWhereTheyAreNone) {
   EXPECT_TRUE(refused([](FilmData& scene) { scene.segments[0].shape = 5; })) << "three of the film, two of its own";
   EXPECT_TRUE(refused([](FilmData& scene) { scene.shapes[1].patch_count = 3; }));
   EXPECT_TRUE(refused([](FilmData& scene) { scene.shapes[1].meshlet_count = 1; })) << "the film's";
-  EXPECT_TRUE(refused([](FilmData& scene) { scene.moving = {3}; }));
+  EXPECT_TRUE(
+      refused([](FilmData& scene) { scene.moving = {std::uint32_t(scene.segments.size() + scene.bones.size())}; }));
   EXPECT_TRUE(refused([](FilmData& scene) { scene.intervals.clear(); }));
   EXPECT_TRUE(refused([](FilmData& scene) { scene.settings.width = kMaxSide + 1; }));
   EXPECT_TRUE(refused([](FilmData& scene) {
@@ -358,6 +360,26 @@ TEST(Scenes, KnowWhatMoves) {
   EXPECT_EQ(scene.patches_of(1).data(), film.patches().data() + 2);
   EXPECT_EQ(scene.patches_of(4).data(), scene.patches().data() + 2);
   EXPECT_EQ(scene.meshlets_of(1).data(), film.meshlets().data());
+}
+
+// A segment's material is that of all of it.
+TEST(Scenes, ChangeSkinsWhollyWhereAllTheirBonesMove) {
+  const Bytes film_block = pack(small_film());
+  const PackedFilm film(film_block, "film");
+  FilmData data = small_scene();
+  data.segments[2] = {2, 0, {0, 1}, {0, 1}, 0, 0, 2};
+  data.bones = {{0, 1}, {0, 1}};
+  for (const auto& [moving, whole] : {std::pair{std::vector<std::uint32_t>{2, 4}, false}, {{2, 3, 4}, true}}) {
+    data.moving = moving;
+    data.intervals = {{0, 1, 0, std::uint32_t(moving.size())}};
+    const Bytes block = pack_scene(data);
+    const PackedFilm scene(block, film, "scene");
+    const MovingParts parts(scene);
+    EXPECT_EQ(parts.has_segment(2), whole);
+    EXPECT_EQ(parts.has_segment(3), whole);
+    EXPECT_TRUE(parts.has_segment(4));
+    EXPECT_FALSE(parts.has_segment(5) || parts.are_all());
+  }
 }
 
 // Slot 1 of three is the node's.

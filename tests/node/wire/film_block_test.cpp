@@ -235,7 +235,7 @@ TEST(FilmBlock, RefusesBrokenIndices) {
        }},
       {"movers twice", [](FilmData& f) { f.moving[1] = 1; }},
       {"movers in no order", [](FilmData& f) { std::swap(f.moving[1], f.moving[2]); }},
-      {"a mover is no segment", [](FilmData& f) { f.moving[4] = 3; }},
+      {"a mover is neither segment nor bone", [](FilmData& f) { f.moving[4] = 5; }},
   });
 }
 

@@ -97,6 +97,12 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].first_bone = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].bone_count = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.net_patches[0].bone_count = 3; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones[2] = 1, f.skin_bones[3] = 0; }));
+  for (const std::uint32_t superfluous : {2u, 4'000'000'000u})
+    EXPECT_TRUE(refused([&](FilmData& f) {
+      f.skin_bones.push_back(superfluous);
+      f.net_patches[0].bone_count = 3;
+    }));
   for (const float weight : {-0.5f, 0.0f, 0.7f, std::nanf("")})
     EXPECT_TRUE(refused([weight](FilmData& f) { f.stencil_terms[1].weight = weight; })) << weight;
   EXPECT_TRUE(refused([](FilmData& f) { f.skin_weights.back() = 0.4f; }));
@@ -104,9 +110,9 @@ TEST(FilmDamage, UnsoundSkinsAreRefused) {
   EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.first_bone = 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.bone_count = kMeshletBones + 1; }));
   EXPECT_TRUE(refused([](FilmData& f) { f.meshlets[2].skin.first_weight = 1; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones = {1, 0}; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones = {1, 1}; }));
-  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones = {0, 2}; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones[0] = 1, f.skin_bones[1] = 0; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones[0] = 1; }));
+  EXPECT_TRUE(refused([](FilmData& f) { f.skin_bones[1] = 2; }));
   for (const float weight : {-0.5f, 0.501f, 1.5f, std::nanf("")})
     EXPECT_TRUE(refused([weight](FilmData& f) { f.skin_weights[1] = weight; })) << weight;
 }

@@ -25,7 +25,7 @@ inline FilmData small_film() {
   film.mesh_places = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0.5f}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
   film.mesh_normals.assign(7, {0, 0, 1});
   film.mesh_triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 2}};
-  film.skin_bones = {0, 1};
+  film.skin_bones = {0, 1, 0, 1};  // of points, of a net's patch
   film.skin_weights = {1, 0.5f, 0, 0, 0.5f, 1};
   film.meshlets = {{0, 4, 0, 2, {0, 0, 0}, {1, 1, 0.5f}},
                    {4, 3, 2, 1, {0, 0, 0}, {1, 0, 1}},
@@ -34,7 +34,7 @@ inline FilmData small_film() {
   film.skin_weights.insert(film.skin_weights.end(), 2, 0.5f);
   film.stencil_terms = {{0, 0.25f}, {1, 0.75f}, {1, 1}};
   film.stencils = {{0, 2}, {2, 1}};
-  film.net_patches = {{{}, 0, 2}};
+  film.net_patches = {{{}, 2, 2}};
   film.net_patches[0].stencils[5] = 1;
   film.shapes = {{0, 2, 0, 0}, {2, 1, 0, 2}, {1, 1, 2, 1, 2, 0}};
   film.segments = {{0, 0, {0, 1}, {0, 1}}, {1, 5, {1, 3}, {0, 1}}, {2, 5, {0, 1}, {0, 1}, 0, 0, 2}};
