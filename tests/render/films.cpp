@@ -309,13 +309,21 @@ wire::FilmData overhead(std::uint32_t width, std::uint32_t height, std::uint32_t
 
 namespace {
 
-// Of `bones` bones of a tube of a length at a place, each turned against the one below by an angle about y.
-std::vector<wire::Matrix> bent(const Vec3& place, double length, std::uint32_t bones, double angle) {
+// A tube of a length at a place, of bones of which the lowest ones stand upright.
+struct Tube {
+  Vec3 place;
+  double length;
+  std::uint32_t bones, standing = 1;
+};
+
+// The bones, of which each above the standing ones is turned against the one below by an angle about y.
+std::vector<wire::Matrix> bent(const Tube& tube, double angle) {
+  const auto& [place, length, bones, standing] = tube;
   std::vector<wire::Matrix> matrices;
   const double part = length / bones, width = length / 4;
   double x = place[0], z = place[2];
   for (std::uint32_t bone = 0; bone < bones; ++bone) {
-    const double turn = bone * angle, c = std::cos(turn), s = std::sin(turn);
+    const double turn = (bone + 1 - std::min(bone + 1, standing)) * angle, c = std::cos(turn), s = std::sin(turn);
     // The unit cube's part of the bone begins at (x, z), upright in its own axes.
     const double dx = -0.5 * width, dz = -part * bone;
     matrices.push_back({{{{c * width, 0, s * length, x + c * dx + s * dz},
@@ -327,12 +335,11 @@ std::vector<wire::Matrix> bent(const Vec3& place, double length, std::uint32_t b
 }
 
 // The bones' motions, by an angle at each frame.
-std::vector<std::vector<wire::Matrix>> bends(const Vec3& place, double length, std::uint32_t bones,
-                                             const std::vector<double>& angles) {
-  std::vector<std::vector<wire::Matrix>> motions(bones);
+std::vector<std::vector<wire::Matrix>> bends(const Tube& tube, const std::vector<double>& angles) {
+  std::vector<std::vector<wire::Matrix>> motions(tube.bones);
   for (const double angle : angles) {
-    const std::vector<wire::Matrix> now = bent(place, length, bones, angle);
-    for (std::uint32_t bone = 0; bone < bones; ++bone) motions[bone].push_back(now[bone]);
+    const std::vector<wire::Matrix> now = bent(tube, angle);
+    for (std::uint32_t bone = 0; bone < tube.bones; ++bone) motions[bone].push_back(now[bone]);
   }
   return motions;
 }
@@ -377,12 +384,12 @@ wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t 
   for (std::uint32_t f = 0; f < frames; ++f) angles.push_back(0.1 + 0.11 * f);
   const std::uint32_t shapes[] = {maker.add_shape(modeler::cut_meshlets(tube(24, 6))),
                                   maker.add_shape(modeler::cut_meshlets(tube(60, 24)))};
-  maker.add_skin(shapes[0], clay, bends({-2.5, -1.5, 0}, 4, 6, angles));
-  maker.add_skin(shapes[0], blue, bends({1.2, 1.5, 0}, 3, 6, {-0.2}));
+  maker.add_skin(shapes[0], clay, bends({{-2.5, -1.5, 0}, 4, 6}, angles));
+  maker.add_skin(shapes[0], blue, bends({{1.2, 1.5, 0}, 3, 6}, {-0.2}));
   for (double& angle : angles) angle = 0.02 - 0.2 * angle;
-  maker.add_skin(shapes[1], blue, bends({2, -2, 0}, 4.5, 24, angles));
+  maker.add_skin(shapes[1], blue, bends({{2, -2, 0}, 4.5, 24, 12}, angles));
   for (double& angle : angles) angle *= 3;
-  maker.add_skin(maker.add_shape(patch_tube(9, 5)), clay, bends({-0.3, -2.8, 0}, 3, 5, angles));
+  maker.add_skin(maker.add_shape(patch_tube(9, 5)), clay, bends({{-0.3, -2.8, 0}, 3, 5, 3}, angles));
   for (wire::Segment& segment : maker.film.segments)
     if (segment.bone_count > 0) segment.blend = blend;
   maker.add_light({wire::LightKind::directional, {-0.28f, 0, 0.96f}, {0.8f, 0.8f, 0.8f}});

@@ -105,25 +105,26 @@ TEST(Skins, AreTheSameBitsFarFromTheWorldsOrigin) {
   }
 }
 
-// The lowest bone of each tube stands still, and so do all of one tube.
+// The lowest bones of each tube stand still, and all of one tube.
 TEST(Skins, HoldStillUntilABoneMoves) {
   const wire::FilmData film = bending(64, 40, 4, 4);
   ASSERT_EQ(film.intervals.size(), 1u);
   std::vector<std::uint32_t> moving = {2, 4, 5};
-  for (const std::uint32_t segment : {2u, 4u, 5u})
-    for (std::uint32_t bone = 1; bone < film.segments[segment].bone_count; ++bone)
+  for (const auto& [segment, standing] : {std::pair{2u, 1u}, {4u, 12u}, {5u, 3u}})
+    for (std::uint32_t bone = standing; bone < film.segments[segment].bone_count; ++bone)
       moving.push_back(static_cast<std::uint32_t>(film.segments.size()) + film.segments[segment].first_bone + bone);
   EXPECT_EQ(film.moving, moving);
   const FilmBlock block(film);
   const wire::PackedFilm view = block.view();
   geometry::Scene scene(view);
   scene.set_interval(0);
-  for (const std::uint32_t segment : {2u, 4u, 5u}) {
+  EXPECT_TRUE(scene.moves(2) && !scene.stands(2)) << "no piece follows the lowest bone alone";
+  for (const std::uint32_t segment : {4u, 5u}) {
     const auto size = view.shape(film.segments[segment].shape).size();
     std::uint64_t moving_pieces = 0;
     for (std::size_t piece = 0; piece < size; ++piece) moving_pieces += scene.moves(segment, piece);
     EXPECT_TRUE(scene.moves(segment) && scene.stands(segment));
-    EXPECT_GT(moving_pieces, size / 2) << segment;
+    EXPECT_GT(moving_pieces, size / 4) << segment;
     EXPECT_LT(moving_pieces, size) << segment;
   }
 }

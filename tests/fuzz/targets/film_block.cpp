@@ -1,4 +1,5 @@
 // Compiled films as nodes read them: PackedFilm refuses a block, or all of it can be read without harm.
+#include "hal/failure/failure.h"
 #include "node/geometry/meshlets.h"
 #include "node/geometry/scene.h"
 #include "node/geometry/sweep.h"

@@ -168,7 +168,7 @@ TEST(Examples, MeasuringScenesHaveTheirTriangles) {
 TEST(Examples, TheCaterpillarHasFortyJointsAndMovesWithTheManAlone) {
   const CompiledFilm film = load_film(fs::path(MARS_SOURCE_DIR) / "examples/demo.json");
   EXPECT_EQ(modeler::load_model(fs::path(MARS_SOURCE_DIR) / "examples/models/caterpillar.json").joints.size(), 40u);
-  for (const std::uint32_t segment : film.view().moving(film.view().intervals()[0])) {
+  for (const std::uint32_t segment : film.view().moving_segments(film.view().intervals()[0])) {
     const std::string_view name = film.view().name(film.view().segments()[segment]);
     EXPECT_TRUE(name.starts_with("caterpillar/") || name.starts_with("man/")) << name;
   }

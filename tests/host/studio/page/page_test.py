@@ -332,7 +332,7 @@ class Controls(Page):
         self.assertEqual(numbers(steps[4], "--place")[:2], [0.3, 0.4])
 
     def test_first_steps_are_of_what_there_is(self):
-        shown = lambda: self.find(".nothing dl").text  # noqa: E731
+        shown = lambda: self.js("return document.querySelector('.nothing dl').innerText")  # noqa: E731
         self.assertIn("a limb in a view", shown())
         body = {**self.studio.project["actors"][0]["joints"][0], "shape": None, "sbb": None, "name": "body"}
         actors = [{**self.studio.project["actors"][0], "joints": [body]}]
