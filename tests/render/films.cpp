@@ -387,7 +387,7 @@ wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t 
   maker.add_skin(shapes[0], clay, bends({{-2.5, -1.5, 0}, 4, 6}, angles));
   maker.add_skin(shapes[0], blue, bends({{1.2, 1.5, 0}, 3, 6}, {-0.2}));
   for (double& angle : angles) angle = 0.02 - 0.2 * angle;
-  maker.add_skin(shapes[1], blue, bends({{2, -2, 0}, 4.5, 24, 12}, angles));
+  maker.add_skin(shapes[1], blue, bends({{2, -2, 0}, 4.5, 24, 18}, angles));
   for (double& angle : angles) angle *= 3;
   maker.add_skin(maker.add_shape(patch_tube(9, 5)), clay, bends({{-0.3, -2.8, 0}, 3, 5, 3}, angles));
   for (wire::Segment& segment : maker.film.segments)
