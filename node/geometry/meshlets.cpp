@@ -32,7 +32,7 @@ void MeshletPlacer::place(const SegmentPlace& segment, const wire::PackedFilm& f
     ++count;
   }
   const shape::EyeSkin skin{bones, is_dual ? duals : nullptr, film.skin_weights().data() + meshlet.skin.first_weight,
-                            count, segment.scale()};
+                            count, segment.scale(film, meshlet)};
   vertex_count_ = static_cast<int>(meshlet.vertex_count);
   kernels_.move_skin(skin, vectors(film.mesh_places().data() + meshlet.first_vertex),
                      vectors(film.mesh_normals().data() + meshlet.first_vertex), vertex_count_, vertices_);

@@ -101,14 +101,18 @@ void SegmentPlace::find_bones(const Scene& scene, std::size_t segment) {
   bounds_.begin(of.blend, scene.most_bones());
   net_.start(scene.film());
   bone_pairs_ = scene.bone_pairs();
-  float largest = 0;
   for (std::uint32_t bone = 0; bone < of.bone_count; ++bone) {
     bones_.put(bone, scene.bone_matrix(segment, bone));
     bounds_.add(in_doubles(bones_.matrices[bone]));
+  }
+}
+
+float SegmentPlace::scale(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const {
+  float largest = 0;
+  for (const std::uint32_t bone : film.bones_of(meshlet.skin))
     for (const auto& row : bones_.matrices[bone].m)
       for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(row[c]));
-  }
-  scale_ = largest > 0 ? std::ldexp(1.0f, -std::clamp(std::ilogb(largest), -100, 100)) : 1;
+  return largest > 0 ? std::ldexp(1.0f, -std::clamp(std::ilogb(largest), -100, 100)) : 1;
 }
 
 bool SegmentPlace::mirrors(const wire::PackedFilm& film, std::size_t piece) const {

@@ -65,11 +65,12 @@ class SegmentPlace {
   bool mirrors(const wire::PackedFilm& film, std::size_t piece) const;
   // Of a rigid segment.
   const shape::EyeMap& map() const { return map_; }
-  // Of a skin, by number; and EyeSkin::scale, a power of two, with which segments that share vertices give these the
-  // same normals.
+  // Of a skin, by number.
   std::span<const shape::EyeMatrix> bones() const { return bones_.matrices; }
   std::span<const shape::DualBone<float>> duals() const { return bones_.duals; }  // none where the blend is linear
-  float scale() const { return scale_; }
+  // EyeSkin::scale of a meshlet with a skin: a power of two by its own bones, so others change no bit of it, and
+  // meshlets that share vertices give these the same normals.
+  float scale(const wire::PackedFilm& film, const wire::Meshlet& meshlet) const;
 
   // One of its shape's patches, by its number in the shape.
   shape::EyePatch patch(const wire::PackedFilm& film, std::size_t number) const;
@@ -89,7 +90,6 @@ class SegmentPlace {
   std::span<const BonePairs> bone_pairs_;
   SkinBounds bounds_;
   mutable NetPoints<float, 3> net_;  // patches ask for the same points
-  float scale_ = 1;
 };
 
 }  // namespace mars::geometry

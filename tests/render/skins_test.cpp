@@ -129,27 +129,41 @@ TEST(Skins, HoldStillUntilABoneMoves) {
   }
 }
 
+// A film of one interval in which of the tube with many bones one alone moves, once, as `move` changes its matrix.
+template <typename Move>
+wire::FilmData with_one_moving_bone(std::uint32_t moving_bone, const Move& move) {
+  wire::FilmData film = with_samples(bending(120, 80, 3, 3), 4);
+  const wire::Segment& tube = film.segments[4];
+  for (std::uint32_t bone = 0; bone < tube.bone_count; ++bone) film.bones[tube.first_bone + bone].count = 1;
+  wire::Track& track = film.bones[tube.first_bone + moving_bone];
+  const std::uint32_t value = film.changes[track.first].value;
+  track = {static_cast<std::uint32_t>(film.changes.size()), 2};
+  film.changes.insert(film.changes.end(), {{0, value}, {1, static_cast<std::uint32_t>(film.matrices.size())}});
+  film.matrices.push_back(film.matrices[value]);
+  move(film.matrices.back());
+  const auto first = static_cast<std::uint32_t>(film.segments.size()) + tube.first_bone;
+  std::erase_if(film.moving, [&](std::uint32_t part) { return part >= first && part < first + tube.bone_count; });
+  film.moving.insert(std::ranges::lower_bound(film.moving, first), first + moving_bone);
+  film.intervals[0].moving_count = static_cast<std::uint32_t>(film.moving.size());
+  return film;
+}
+
 // The lowest bone of a tube that is seen from outside only turns inside out; what follows others alone stays as it was
 // drawn in the keyframe.
 TEST(Skins, PiecesTurnInsideOutWithTheirOwnBones) {
-  wire::FilmData film = with_samples(bending(120, 80, 3, 3), 4);
-  const wire::Segment& tube = film.segments[4];
-  ASSERT_EQ(film.materials[film.changes[tube.material.first].value].sides, 1u);
-  const wire::Track before = film.bones[tube.first_bone];
-  const std::uint32_t value = film.changes[before.first].value;
-  wire::Matrix flipped = film.matrices[value];
-  for (auto& row : flipped.m) row[3] += row[0], row[0] = -row[0];
-  film.bones[tube.first_bone] = {static_cast<std::uint32_t>(film.changes.size()), 2};
-  film.changes.insert(film.changes.end(), {{0, value}, {1, static_cast<std::uint32_t>(film.matrices.size())}});
-  film.matrices.push_back(flipped);
-  // Of the tube only its lowest bone moves.
-  const auto bone_number = static_cast<std::uint32_t>(film.segments.size()) + tube.first_bone;
-  for (std::uint32_t bone = 1; bone < tube.bone_count; ++bone) film.bones[tube.first_bone + bone].count = 1;
-  std::erase_if(film.moving,
-                [&](std::uint32_t part) { return part >= bone_number && part < bone_number + tube.bone_count; });
-  film.moving.insert(std::ranges::lower_bound(film.moving, bone_number), bone_number);
-  film.intervals[0].moving_count = static_cast<std::uint32_t>(film.moving.size());
+  const wire::FilmData film = with_one_moving_bone(0, [](wire::Matrix& matrix) {
+    for (auto& row : matrix.m) row[3] += row[0], row[0] = -row[0];
+  });
+  ASSERT_EQ(film.materials[film.changes[film.segments[4].material.first].value].sides, 1u);
   expect_same(run_film(FilmBlock(film).bytes(), {}), from_scratch(film), film.settings, "skins-inside-out");
+}
+
+// So far from the eye that the others' normals would be lost beside it.
+TEST(Skins, PiecesKeepTheirNormalsHoweverFarOtherBonesStretch) {
+  const wire::FilmData film = with_one_moving_bone(23, [](wire::Matrix& matrix) {
+    for (auto& row : matrix.m) row[1] *= 4e11;
+  });
+  expect_same(run_film(FilmBlock(film).bytes(), {}), from_scratch(film), film.settings, "skins-stretched");
 }
 
 // A studio's view: an inbetween in which one bone stands elsewhere is the picture of the scene with that bone there.
