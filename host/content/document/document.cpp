@@ -218,7 +218,8 @@ Document::Document(std::string_view json, std::string name) : name_(std::move(na
   if (json.find_first_not_of(" \t\r\n") == std::string_view::npos)
     throw Failure("is empty", name_, "write a film or model as JSON");
   if (json.substr(0, 4096).find('\0') != std::string_view::npos)
-    throw Failure("is binary, not JSON", name_, "name a film or model written as JSON");
+    throw Failure("is binary, not JSON", name_,
+                  "name a film or model written as JSON; mars import makes one of another program's file");
   const char* reached = json.data();
   Builder builder(*this, json, reached);
   const char* const end = json.data() + json.size();

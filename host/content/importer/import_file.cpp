@@ -136,6 +136,9 @@ void check_target(const ImportOptions& options) {
   document::refuse_same_file(options.from, options.to);
   for (const std::filesystem::path& more : options.more) document::refuse_same_file(more, options.to);
   if (!options.skeleton.empty()) document::refuse_same_file(options.skeleton, options.to);
+  if (known_kind(options.to))
+    throw Failure("has the ending of another program's file", options.to.string(),
+                  "end its name in .json: MARS writes models and films as JSON");
   std::error_code none;
   if (!options.force && std::filesystem::exists(options.to, none))
     throw Failure("is there already", options.to.string(), "choose another name, or replace it with --force");

@@ -53,6 +53,8 @@ std::string set_material(const ImportOptions& options) {
 }
 
 std::string set_limb(const ImportOptions& options) {
+  if (options.as == ImportAs::film)
+    return "import it as a model, NAME.json, then mars model NAME.json set JOINT --limb";
   return "mars model " + document::shell_word(options.to.string()) + " set JOINT --limb";
 }
 

@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string_view>
@@ -325,7 +326,10 @@ class SceneReader {
 
   // `joints`: the builder's, by node.
   void name_limbs(const std::vector<std::size_t>& joints) {
-    for (const auto& [limb, node] : named(limbs_.limbs)) named_limbs_.push_back({limb, builder_.name_of(joints[node])});
+    std::map<std::size_t, int> limbs_of;  // of nodes that are one joint, none can be told from the others
+    for (const auto& [limb, node] : named(limbs_.limbs)) ++limbs_of[joints[node]];
+    for (const auto& [limb, node] : named(limbs_.limbs))
+      if (limbs_of[joints[node]] == 1) named_limbs_.push_back({limb, builder_.name_of(joints[node])});
   }
 
   // In the model's axes a node that the file does not turn has the model's.

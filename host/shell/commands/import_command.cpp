@@ -134,7 +134,8 @@ void add_import(cli::Command app) {
            "--up -y");
   add_axis(command, "--front", options->front,
            "The file's axis along which the model looks; it becomes x. Default: of a model with limbs, the way they "
-           "look; z for motions; else the file's x, if it does not point up or down. Example: --front z");
+           "look; z for motions; else, and of films, the file's x, if it does not point up or down. Example: --front "
+           "z");
   add_size(command, options->size);
   command
       .add("--crease", options->crease,

@@ -164,10 +164,18 @@ class Unpacker {
   std::string blob_;
 };
 
+// Version 1 has objects where 2 has lists.
+void require_version_2(const std::filesystem::path& path, const Tree& gltf) {
+  const Tree& version = at(at(gltf, "asset"), "version");
+  if (version.is_string() && version.get_ref<const std::string&>().starts_with("1"))
+    throw Failure("is glTF of version 1", path.string(), "export it as glTF 2.0");
+}
+
 }  // namespace
 
 GltfBytes gltf_bytes(const std::filesystem::path& path, std::string bytes) {
   Tree gltf = gltf_json(bytes);
+  require_version_2(path, gltf);
   require_within_buffers(path, gltf);
   require_alike_attributes(path, gltf);
   const auto has_packed_view = [](const Tree& view) { return !packed_view(view).is_null(); };

@@ -320,6 +320,37 @@ TEST_F(ImportTest, AFileThatWasReadBesidesIsNotOverwritten) {
   EXPECT_EQ(document::read_file(options.to).size(), 9u);
 }
 
+TEST_F(ImportTest, OutputsAreNotNamedAsOtherProgramsFiles) {
+  ImportOptions options = options_for(write("wedge.obj", obj_box()));
+  options.to = folder_ / "wedge.glb";
+  EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
+                              "wedge.glb: has the ending of another program's file (end its name in .json"));
+  EXPECT_FALSE(fs::exists(options.to));
+}
+
+TEST_F(ImportTest, GltfOfVersion1IsOneClearFailure) {
+  ImportOptions options = options_for(write("one.gltf", R"({"asset": {"version": "1.0.2"}, "nodes": {"a": {}}})"));
+  for (const ImportAs as : {ImportAs::model, ImportAs::film}) {
+    options.as = as;
+    EXPECT_TRUE(document::holds(document::failure_of([&] { import_model(options); }),
+                                "one.gltf: is glTF of version 1 (export it as glTF 2.0)"));
+  }
+}
+
+// Both bones stand for the joint of the box, so neither can be a limb.
+TEST_F(ImportTest, BonesOfOneJointAreNoLimbs) {
+  const std::string vrm = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+      "nodes": [{"mesh": 0, "children": [1, 2]}, {"name": "a"}, {"name": "b"}],
+      "extensions": {"VRMC_vrm": {"humanoid": {"humanBones": {"leftUpperArm": {"node": 1}, "leftLowerArm": {"node": 2}}}}},
+      "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+      "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+      "bufferViews": [{"buffer": 0, "byteLength": 36}],
+      "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+  const ImportOptions options = options_for(write("figure.gltf", vrm));
+  import_model(options);
+  EXPECT_EQ(modeler::load_model(options.to).joints.size(), 1u);
+}
+
 TEST_F(ImportTest, FilesOutsideOfTheFolderAreNotRead) {
   const auto gltf = [](const std::string& uri) {
     return R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes":
