@@ -326,7 +326,7 @@ class SceneReader {
 
   // `joints`: the builder's, by node.
   void name_limbs(const std::vector<std::size_t>& joints) {
-    std::map<std::size_t, int> limbs_of;  // of nodes that are one joint, none can be told from the others
+    std::map<std::size_t, int> limbs_of;  // by joint; of several limbs that are one joint, none is named
     for (const auto& [limb, node] : named(limbs_.limbs)) ++limbs_of[joints[node]];
     for (const auto& [limb, node] : named(limbs_.limbs))
       if (limbs_of[joints[node]] == 1) named_limbs_.push_back({limb, builder_.name_of(joints[node])});
