@@ -8,8 +8,8 @@ import tempfile
 import time
 import unittest
 
-from harness import (ENDLESS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, living, main, needs,
-                     spinning_teapot, wait_until)
+from harness import (ENDLESS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family, living, main,
+                     needs, spinning_teapot, wait_until)
 
 FRAMES = 40
 WITHIN_RIGHTS = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
@@ -99,7 +99,7 @@ class Storage(SideBySide, ProgramTest):
 
     def assertGoesOnToItsEnd(self, process, lines=2):
         process.wait(timeout=SECONDS)
-        words = self.words()
+        words = complaints(self.words())
         self.assertEqual(process.returncode, 0, words)
         self.assertGreaterEqual(len(words.splitlines()), lines, words)
         self.assertTrue(words.splitlines()[-1].endswith("the run goes on"), words)
@@ -115,7 +115,7 @@ class Storage(SideBySide, ProgramTest):
         process.send_signal(signal.SIGTERM)
         process.wait(timeout=SECONDS)  # waiting for storage lasts 10 minutes
         self.assertEqual(process.returncode, 1)
-        self.assertIn("stopped by Terminated", self.words().splitlines()[-1])
+        self.assertIn("stopped by Terminated", complaints(self.words()).splitlines()[-1])
         return kin
 
     @needs_mounts
@@ -128,7 +128,7 @@ class Storage(SideBySide, ProgramTest):
                 self.hears(process, "No space left on device; waiting up to 10 minutes: the run goes on by itself, and "
                                     "the same command goes on later")
                 time.sleep(1.5)
-                self.assertEqual(len(self.words().splitlines()), 1, self.words())
+                self.assertEqual(len(complaints(self.words()).splitlines()), 1, self.words())
                 self.inside("mount -o remount,size=4M . && rm ballast")
                 self.assertGoesOnToItsEnd(process)
                 self.inside("rm -r out; mount -o remount,size=512k .")
@@ -140,7 +140,7 @@ class Storage(SideBySide, ProgramTest):
         process = self.start()
         self.hears(process, "No space left on device; waiting")
         time.sleep(2.5)
-        self.assertEqual(len(self.words().splitlines()), 1, self.words())
+        self.assertEqual(len(complaints(self.words()).splitlines()), 1, self.words())
         self.inside("rm ballast")
         self.assertGoesOnToItsEnd(process)
 

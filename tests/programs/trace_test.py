@@ -4,7 +4,7 @@ import json
 import subprocess
 import unittest
 
-from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SANITIZED, SECONDS, ProgramTest, main, needs_mpi,
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, ProgramTest, SideBySide, complaints, main, needs_mpi,
                      spinning_teapot)
 
 ARM = EXAMPLES / "robot-arm.json"
@@ -15,7 +15,7 @@ def may_shift_clocks():
                           capture_output=True).returncode == 0
 
 
-class Traces(ProgramTest):
+class Traces(SideBySide, ProgramTest):
     def trace(self):
         return json.loads((self.folder / "trace.json").read_text())
 
@@ -44,11 +44,9 @@ class Traces(ProgramTest):
 
     def test_of_a_run_that_fails(self):
         """A node whose memory is too short for one line of a large picture says so when it has diced."""
-        film = json.loads((EXAMPLES / "s2.json").read_text())
-        fine = self.write("fine.json", {**film, "dice": 64})
         for backend in self.backends():
             with self.subTest(backend=backend):
-                self.fail_clearly(1, "render", fine, "--sink", "none", "--size", "7680x4320", "--nodes", 2,
+                self.fail_clearly(1, "render", EXAMPLES / "s2.json", "--sink", "none", "--size", "7680x4320", "--nodes", 2,
                                   "--backend", backend, "--trace", "trace.json", says="set MARS_MEMORY to more",
                                   env=dict(ENVIRONMENT, MARS_MEMORY="1"))
                 trace = self.trace()
@@ -77,19 +75,17 @@ class Traces(ProgramTest):
         for event in events:
             if event["ph"] == "f":
                 self.assertGreater(event["ts"], sent[event["id"]] - 2 * error)
-            self.assertLess(abs(event["ts"]), SECONDS * 1e6)
+            self.assertLess(abs(event["ts"]), 700e6)  # the clocks differ by more
 
     def test_that_cannot_be_written(self):
         self.fail_clearly(1, "render", ARM, "-o", "out", "--trace", "none/trace.json", says="none/trace.json")
         self.assertEqual(list(self.folder.glob("out/*")), [])
 
     def test_of_a_film_too_long_for_it(self):
-        film = self.write("film.json", spinning_teapot(40000, [8, 8]))
-        done = self.mars("render", film, "--sink", "none", "--backend", "threads", "--nodes", 2,
-                         "--trace", "trace.json")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        if not SANITIZED:  # whose nodes and storage are slow enough to be warned of
-            self.assertEqual(done.stderr, "")
+        film = self.write("film.json", spinning_teapot(2500, [8, 8]))
+        done = self.mars("render", film, "--sink", "none", "--backend", "threads", "--nodes", 8, "--groups", 1,
+                         "--no-coherence", "--trace", "trace.json")  # all nodes draw each frame, and say so
+        self.assertEqual((done.returncode, complaints(done.stderr)), (0, ""))
         with open(self.folder / "trace.json") as file:  # its first line says what is in it
             head_of_file = json.loads(file.readline().removesuffix(',"traceEvents":[\n') + "}")
         lacks = head_of_file["otherData"]["events_beyond_bound"]
