@@ -14,9 +14,8 @@ import time
 import unittest
 
 import harness
-from harness import HAVE_MPI, ProgramTest, main, needs
+from harness import BUILD, HAVE_MPI, ProgramTest, main, needs
 
-BUILD = harness.PROGRAMS.parent
 STARTERS = ["mars", "mars-threads", "mars-simulated", "mars-nx"] + ["mars-host", "mars-ranks"] * HAVE_MPI  # nodes take no arguments
 
 COMPLETE = """
@@ -33,10 +32,8 @@ function=$(complete -p "${1##*/}" | sed 's/.*-F \\([^ ]*\\).*/\\1/')
 class Installation(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        work = pathlib.Path(tempfile.mkdtemp(prefix="mars-install-"))
-        cls.addClassCleanup(shutil.rmtree, work)
-        subprocess.run(["cmake", "--install", BUILD, "--prefix", work / "first", "--strip"], check=True,
-                       capture_output=True)
+        work = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
+        harness.install(work / "first", "--strip")
         cls.prefix = (work / "first").rename(work / "moved here")
         harness.PROGRAMS = cls.prefix / "bin"
 
@@ -103,7 +100,7 @@ class Installed(Installation):
         whole = sorted(path.relative_to(self.prefix) for path in self.prefix.rglob("*") if not path.is_dir())
         parts = []
         for part in ["mars", "mars-nx", "mars-nx-dev", "mars-window"]:
-            self.succeed("cmake", "--install", BUILD, "--component", part, "--prefix", self.folder / part)
+            harness.install(self.folder / part, "--component", part)
             parts += [path.relative_to(self.folder / part) for path in (self.folder / part).rglob("*")
                       if not path.is_dir()]
         self.assertEqual(sorted(parts), whole)

@@ -94,11 +94,12 @@ class LocalJobs(ProgramTest):
         process = self.start()
         everyone = family(process.pid)
         left = self.folders_of(everyone)
+        self.assertEqual([path.parent for path in left], [SHARED, self.temporary])
+        self.assertTrue(all(any(path.iterdir()) for path in left), left)
         for each in [process.pid, *everyone]:
             os.kill(each, signal.SIGKILL)
         wait_until(lambda: not living(everyone), 10, "they live on")
-        self.assertEqual([path.parent for path in left], [SHARED, self.temporary])
-        self.assertTrue(all(any(path.iterdir()) for path in left), left)
+        self.assertTrue(any(left[1].iterdir()), left)  # the other may be gone: any start on this machine removes it
         self.render_a_frame()
         self.assertEqual([path for path in left if path.exists()], [])
         self.assertEqual(list(self.temporary.iterdir()), [])

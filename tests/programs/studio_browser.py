@@ -33,12 +33,13 @@ for (let top = 0; !document.querySelector(arguments[0]) && top < tree.scrollHeig
 
 
 class Studio:
-    """`mars studio FILE` in the file's folder; in a folder, one that begins a new model. `link` as a person gets it."""
+    """`mars studio FILE` in the file's folder; in a folder, one that begins a new model. `link` as a person gets it. Its
+    port, unless one is given, is any free one: at the usual port, pages of other tests might look for their studios."""
 
-    def __init__(self, programs, file, *arguments):
+    def __init__(self, programs, file, *arguments, port=0):
         file = pathlib.Path(file)
         opened, folder = ([], file) if file.is_dir() else ([file.name], file.parent)
-        command = [pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", *arguments]
+        command = [pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", "--port", str(port), *arguments]
         self.process = subprocess.Popen(command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.link = None
         for line in self.process.stdout:

@@ -74,7 +74,7 @@ class StudioInBrowser(ProgramTest):
 
     def start(self, file, *arguments):
         studio = self.enterContext(Studio(PROGRAMS, file, *arguments))
-        self.addCleanup(self.browser.open, "about:blank")  # or the page asks the next one's studio at this port
+        self.addCleanup(self.browser.open, "about:blank")  # or the page goes on looking for its studio
         self.show(studio.link)
         return studio
 
@@ -408,7 +408,7 @@ class FilmTest(StudioInBrowser):
             time.sleep(0.05)
         self.no_complaint(*NO_STUDIO)
         port = re.search(r":(\d+)/", studio.link)[1]
-        again = self.enterContext(Studio(PROGRAMS, file, "--port", port))
+        again = self.enterContext(Studio(PROGRAMS, file, port=port))
         self.banner("connection", "Open the link that it has printed")
         self.show(again.link)
         self.pictures_in_all_views()

@@ -16,7 +16,7 @@
 #include "host/render/trace/trace_file.h"
 #include "node/frame_report.h"
 #include "tests/hal/counting_backend.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 
@@ -57,7 +57,7 @@ class Tracing : public testing::TestWithParam<Case> {
 
   int host() const { return GetParam().nodes; }
   json written() const {
-    const sinks::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     trace::write_trace(folder / "trace.json", {"crowd", "threads"}, trace_);
     std::ifstream file(folder / "trace.json");
     return json::parse(file);

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::importer {
 namespace {
@@ -49,9 +50,6 @@ std::string triangle_bytes(float first, bool little) {
 
 class PlyFileTest : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   PlyFile read(const std::string& content) const {
     std::ofstream(folder_ / "a.ply", std::ios::binary) << content;
     return read_ply_file(folder_ / "a.ply");
@@ -69,7 +67,7 @@ class PlyFileTest : public testing::Test {
     EXPECT_EQ(file.not_read, std::vector<std::string>{});
   }
 
-  fs::path folder_ = fs::temp_directory_path() / "mars_ply_file_test";
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(PlyFileTest, TextAndBytesOfEitherOrder) {

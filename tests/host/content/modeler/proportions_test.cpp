@@ -10,6 +10,7 @@
 #include "host/content/modeler/read_model.h"
 #include "host/content/modeler/scale_model.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::modeler {
 namespace {
@@ -141,12 +142,7 @@ TEST(Proportions, AManHasTheHeightAndStandsWhereHeStood) {
 
 class Derived : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "mars-derived";
-    fs::create_directories(folder_);
-    write("arm.json", kArm);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { write("arm.json", kArm); }
 
   void write(const char* name, std::string_view text) { document::write_whole_file(folder_ / name, text); }
   std::string failure(const char* text) {
@@ -154,7 +150,7 @@ class Derived : public testing::Test {
     return document::failure_of([&] { load_model(folder_ / "it.json"); });
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(Derived, ReadsTheOtherFileFromItsOwnFolder) {

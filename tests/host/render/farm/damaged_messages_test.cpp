@@ -17,7 +17,7 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/trace/trace_file.h"
 #include "tests/host/render/farm/scripted_node.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::farm {
 namespace {
@@ -246,7 +246,7 @@ TEST(DamagedMessages, Trace) {
   trace::Trace trace;
   trace.begin(std::vector{sound_hello()}, 0);
   EXPECT_GT(refused_of(wire::kTrace, sound, [&] { trace.add(0, Inbox().inbox.receive_events()); }), kMessages / 10);
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   trace::write_trace(folder.path() / "trace.json", {"film", "threads"}, trace);
 }
 

@@ -2,7 +2,6 @@
 
 import json
 import pathlib
-import shutil
 import socket
 import subprocess
 import tempfile
@@ -16,7 +15,8 @@ KEYS = {"Enter": "\ue007", "Escape": "\ue00c", "ArrowDown": "\ue015", "ArrowRigh
 
 class Firefox:
     def __init__(self, program, width, height):
-        self.profile = pathlib.Path(tempfile.mkdtemp(prefix="firefox"))
+        self.folder = tempfile.TemporaryDirectory(prefix="mars-test-", ignore_cleanup_errors=True)
+        self.profile = pathlib.Path(self.folder.name)
         lines = (f"user_pref({json.dumps(name)}, {json.dumps(value)});\n" for name, value in SETTINGS.items())
         (self.profile / "user.js").write_text("".join(lines))
         self.process = subprocess.Popen([program, "--headless", "--no-remote", "--marionette", "--profile", self.profile,
@@ -39,7 +39,7 @@ class Firefox:
         self.socket.close()
         self.process.terminate()
         self.process.wait(PATIENCE)
-        shutil.rmtree(self.profile, ignore_errors=True)
+        self.folder.cleanup()
 
     # Messages: a length, a colon, and as many bytes of JSON.
 

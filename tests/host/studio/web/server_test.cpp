@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::web {
 namespace {
@@ -126,14 +127,12 @@ class ServerTest : public testing::Test {
   ~ServerTest() override {
     context_.stop();
     if (thread_.joinable()) thread_.join();
-    fs::remove_all(folder_);
   }
 
   void serve(const Patience& patience) {
-    fs::create_directory(folder_);
     std::ofstream(folder_ / "index.html") << "<!DOCTYPE html>";
     ServerSettings settings;
-    settings.folder = folder_;
+    settings.folder = folder_.path();
     settings.patience = patience;
     server_ = make_server(context_, settings,
                           {[this](PageNumber) { ++opened_; }, [](PageNumber, const Json&) {},
@@ -181,7 +180,7 @@ class ServerTest : public testing::Test {
     return clients;
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("mars-server-test-" + std::to_string(getpid()));
+  const test::TemporaryFolder folder_;
   boost::asio::io_context context_{1};
   std::atomic<int> opened_ = 0, closed_ = 0;
   Came came_;
