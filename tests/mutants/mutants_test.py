@@ -5,7 +5,6 @@ import contextlib
 import io
 import os
 import pathlib
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -139,8 +138,9 @@ class Compiled(unittest.TestCase):
 
 class Chosen(unittest.TestCase):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
         rooms = [place.replace("(keys|document)", "keys").replace("(cli|child)", "cli") for place in mutants.PLACES]
         for room in rooms:
             (self.folder / room).mkdir(parents=True)
@@ -190,8 +190,9 @@ class Chosen(unittest.TestCase):
 
 class Run(unittest.TestCase):
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.folder)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
 
     def made(self, name, script, **properties):
         properties["WORKING_DIRECTORY"] = str(self.folder)

@@ -5,7 +5,6 @@ import json
 import os
 import pathlib
 import re
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -49,7 +48,9 @@ class Run:
     """A test that runs. What it leaves is found by its folder for temporary files, of which its environment tells."""
 
     def __init__(self, test, number, limit, log):
-        self.test, self.limit, self.log, self.temporary = test, limit, log, tempfile.mkdtemp(prefix="m-")
+        self.test, self.limit, self.log = test, limit, log
+        self.folder = tempfile.TemporaryDirectory(prefix="m-", ignore_cleanup_errors=True)
+        self.temporary = self.folder.name
         environment = {**os.environ, "MUTANT_OF_MARS": str(number), "TMPDIR": self.temporary}
         environment |= dict(line.split("=", 1) for line in test.properties.get("ENVIRONMENT", []))
         log.parent.mkdir(parents=True, exist_ok=True)
@@ -79,7 +80,7 @@ class Run:
             except OSError:
                 pass  # Others' processes, and those that have ended.
         self.process.wait()
-        shutil.rmtree(self.temporary, ignore_errors=True)
+        self.folder.cleanup()
 
 
 def outcomes(tests, number, limit_of, logs):
