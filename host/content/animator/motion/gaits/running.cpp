@@ -16,8 +16,7 @@ constexpr double kPeriodsToSpeed = 2.4;  // periods until it has its speed
 constexpr double kPeriodsToStop = 3.2;   // that it needs to stop
 constexpr double kLost = 0.7;            // of a step: by setting out and stopping
 constexpr double kInLine = 0.55;         // of a walk's: feet are nearer to the middle
-constexpr double kRunFootBehind =
-    0.1;  // of a leg: the foot stands behind the body in the middle of its time on the floor
+constexpr double kFootBehind = 0.1;  // of a leg: the foot stands behind the body in the middle of its time on the floor
 
 Gait run_gait(const Body& body, const Stance& from, const Path& path, int steps, double period, modeler::Side first,
               const Style& style) {
@@ -31,7 +30,7 @@ Gait run_gait(const Body& body, const Stance& from, const Path& path, int steps,
   for (int k = 1; k <= steps + 1; ++k, side = other(side)) {
     const bool stops = k >= steps;
     const double middle = planner.landing(k) + stands / 2;
-    const double s = stops ? path.length : std::max(0.0, advance.at(middle) - kRunFootBehind * body.leg_length());
+    const double s = stops ? path.length : std::max(0.0, advance.at(middle) - kFootBehind * body.leg_length());
     const double apart = stops || body.planar() ? 1 : 1 - (1 - kInLine) * advance.speed_at(middle) / advance.speed();
     gait.steps.push_back(planner.step(k, side, planner.print(path.at(s), path.heading(s), side, apart)));
   }
