@@ -17,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kPlaces = "property float x\nproperty float y\nproperty float z\n";
-const std::string kCorners = "property list uchar int vertex_indices\n";
+const std::string kCornerList = "property list uchar int vertex_indices\n";
 
 std::string header(const std::string& format, const std::string& elements) {
   return "ply\nformat " + format + " 1.0\ncomment\nobj_info of a test\n" + elements + "end_header\n";
 }
 
 std::string triangle_header(const std::string& format) {
-  return header(format, "element vertex 3\n" + kPlaces + "element face 1\n" + kCorners);
+  return header(format, "element vertex 3\n" + kPlaces + "element face 1\n" + kCornerList);
 }
 
 std::string with_ends(std::string text, const std::string& end) {
@@ -112,7 +112,7 @@ TEST_F(PlyFileTest, NormalsAreReadAndTheRestIsTold) {
       read(header("ascii", "comment TextureFile skin.png\nelement vertex 4\n" + kPlaces +
                                "property float nx\nproperty float ny\nproperty float nz\n"
                                "property uchar red\nelement face 1\nproperty float area\n" +
-                               kCorners + "element edge 1\nproperty int vertex1\nelement scan 0\nproperty int a\n") +
+                               kCornerList + "element edge 1\nproperty int vertex1\nelement scan 0\nproperty int a\n") +
            "0 0 0 0 0 1 9\n1 0 0 0 0 1 9\n0 1 0 0 0 1 9\n5 5 5 0 0 1 9\n0.5 3 0 1 2\n7\n");
   EXPECT_EQ(file.normals, std::vector<glm::dvec3>(4, {0, 0, 1}));
   EXPECT_EQ(file.not_read,

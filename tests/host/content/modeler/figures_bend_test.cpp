@@ -46,7 +46,7 @@ BentSkin bent(const Joint& joint, const std::vector<Axes>& frames) {
 }
 
 // A side of a patch, by the numbers of its corners; and where it is.
-struct Side {
+struct HemSide {
   std::size_t patch;
   int side;
 };
@@ -64,7 +64,7 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
 class Surface {
  public:
   explicit Surface(const std::vector<wire::Patch>& patches) {
-    std::map<Edge, Side> sides;
+    std::map<Edge, HemSide> sides;
     for (std::size_t patch = 0; patch < patches.size(); ++patch)
       for (int side = 0; side < 4; ++side) {
         const Edge edge = sides_of(patches[patch])[static_cast<std::size_t>(side)];
@@ -132,22 +132,22 @@ class Surface {
           const double u = (i + 0.5) / kSteps, v = (j + 0.5) / kSteps;
           volume += glm::dot(point_of(patch, u, v), normal_of(patch, u, v)) / (3.0 * kSteps * kSteps);
         }
-    for (const std::vector<Side>& hem : hems_) volume += lid(now, hem);
+    for (const std::vector<HemSide>& hem : hems_) volume += lid(now, hem);
     return volume;
   }
 
  private:
   struct Join {
-    Side one, other;
+    HemSide one, other;
     Point from, to;
   };
   struct Rim {
-    Side side;
+    HemSide side;
     Point to;
   };
 
-  std::vector<Side> taken_loop() {
-    std::vector<Side> loop;
+  std::vector<HemSide> taken_loop() {
+    std::vector<HemSide> loop;
     for (auto at = rims_.begin(); at != rims_.end();) {
       const Rim rim = at->second;
       loop.push_back(rim.side);
@@ -158,21 +158,21 @@ class Surface {
   }
 
   // Cones from the hem's middle to its sides, seen from outside.
-  static double lid(const std::vector<wire::Patch>& now, const std::vector<Side>& hem) {
+  static double lid(const std::vector<wire::Patch>& now, const std::vector<HemSide>& hem) {
     glm::dvec3 middle(0);
-    const auto corner = [&](const Side& side, std::size_t end) {
+    const auto corner = [&](const HemSide& side, std::size_t end) {
       const Point& p = sides_of(now[side.patch])[static_cast<std::size_t>(side.side)][end];
       return glm::dvec3(p[0], p[1], p[2]);
     };
-    for (const Side& side : hem) middle += corner(side, 0) / static_cast<double>(hem.size());
+    for (const HemSide& side : hem) middle += corner(side, 0) / static_cast<double>(hem.size());
     double volume = 0;
-    for (const Side& side : hem) volume += glm::dot(middle, glm::cross(corner(side, 3), corner(side, 0))) / 6;
+    for (const HemSide& side : hem) volume += glm::dot(middle, glm::cross(corner(side, 3), corner(side, 0))) / 6;
     return volume;
   }
 
   std::vector<Join> joins_;
   std::map<Point, Rim> rims_;
-  std::vector<std::vector<Side>> hems_;
+  std::vector<std::vector<HemSide>> hems_;
   std::map<Point, int> corners_;  // how many patches meet there
   std::vector<bool> is_regular_;  // of each patch
 };

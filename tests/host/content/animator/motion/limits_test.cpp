@@ -13,7 +13,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kRounding = 1e-4;  // degrees
+constexpr double kLimitRounding = 1e-4;  // degrees
 
 struct Shown {
   explicit Shown(const document::Json& film) : film(read(film)), body(body_of(film_model(), "anna", "test")) {}
@@ -47,8 +47,10 @@ void expect_limits_kept(const document::Json& film, const Performed& done, const
     for (std::size_t i = 0; i < posture.pose.size(); ++i)
       for (int axis = 0; axis < 3; ++axis) {
         const modeler::Limits& limits = shown.film_model().joints[i].limits[axis];
-        EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding) << what << " " << frame << shown.body.joint_name(i);
-        EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding) << what << " " << frame << shown.body.joint_name(i);
+        EXPECT_GE(posture.pose[i][axis], limits.lower - kLimitRounding)
+            << what << " " << frame << shown.body.joint_name(i);
+        EXPECT_LE(posture.pose[i][axis], limits.upper + kLimitRounding)
+            << what << " " << frame << shown.body.joint_name(i);
       }
   }
 }
