@@ -120,7 +120,7 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
 
 // A film of mars calibrate, as SimulatedFilm takes it.
 std::string calibration_film(const std::string& name) {
-  const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
+  static const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
   const auto found = std::ranges::find(films, name, &experiments::CalibrationFilm::name);
   const std::string path = testing::TempDir() + "calibration-" + name;
   std::ofstream(path + ".json") << found->text;
