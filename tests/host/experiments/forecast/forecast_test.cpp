@@ -122,7 +122,7 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
 
 // A film of mars calibrate, written into the folder, as SimulatedFilm takes it.
 std::string calibration_film(const test::TemporaryFolder& folder, const std::string& name) {
-  const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
+  static const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
   const auto found = std::ranges::find(films, name, &experiments::CalibrationFilm::name);
   const std::string path = folder / ("calibration-" + name);
   std::ofstream(path + ".json") << found->text;

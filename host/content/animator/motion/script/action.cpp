@@ -17,7 +17,6 @@
 #include "host/content/animator/motion/gaits/striding.h"
 #include "host/content/animator/motion/goals/tossing.h"
 #include "host/content/animator/motion/script/resting.h"
-#include "host/content/animator/reading/read_film.h"
 
 namespace mars::motion {
 namespace {
@@ -228,12 +227,6 @@ const Action* find_action(std::string_view name) {
   const auto found =
       std::find_if(std::begin(kActions), std::end(kActions), [&](const Action& a) { return a.name == name; });
   return found == std::end(kActions) ? nullptr : found;
-}
-
-Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
-                  const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments) {
-  const document::Document document(document::laid_out(json), path.string());
-  return perform(json, animator::read_film(document.root(), path.parent_path()), name, action, at, arguments);
 }
 
 Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
