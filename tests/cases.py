@@ -1,6 +1,7 @@
 """The main function of test files in Python: it ends with the lines by which GoogleTest tells cases that passed, failed
-and were skipped, for tests/totals.py."""
+and were skipped, for tests/totals.py. And cases that run side by side."""
 
+import concurrent.futures
 import sys
 import unittest
 
@@ -26,3 +27,40 @@ def case_of(test):
 
 def name(test):
     return test.id().replace("__main__.", "")
+
+
+class Notes(unittest.TestResult):
+    """What a case reports, in its order."""
+
+    def __init__(self):
+        super().__init__()
+        for report in ["startTest", "stopTest", "addSuccess", "addError", "addFailure", "addSkip", "addSubTest",
+                       "addExpectedFailure", "addUnexpectedSuccess"]:
+            setattr(self, report, lambda *words, report=report: self.reports.append((report, words)))
+        self.reports = []
+
+
+class SideBySide(unittest.TestCase):
+    """Cases that wait most of the time: AT_ONCE cases of a class run at once, each in a thread and with an object of its
+    own. A setUpClass of a class calls this one last."""
+
+    AT_ONCE = 4
+    running = {}
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        threads = concurrent.futures.ThreadPoolExecutor(cls.AT_ONCE)
+        cls.addClassCleanup(threads.shutdown)
+        cls.running = {each: threads.submit(cls(each).run_alone) for each in unittest.defaultTestLoader.getTestCaseNames(cls)}
+
+    def run_alone(self):
+        notes = Notes()
+        super().run(notes)
+        return notes
+
+    def run(self, result=None):
+        if self._testMethodName not in self.running:
+            return super().run(result)  # the class is skipped
+        for report, words in self.running[self._testMethodName].result().reports:
+            getattr(result, report)(*words)

@@ -11,7 +11,8 @@ import time
 import types
 import unittest
 
-from harness import ENDLESS, ENVIRONMENT, PROGRAMS, SOURCES, ProgramTest, main, needs, spinning_teapot
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, family, main, needs, spinning_teapot,
+                     stopped, wait_until)
 
 FARMS = SOURCES / "cluster/farms"
 FRAMES, CHUNK = 6, 4
@@ -53,7 +54,7 @@ class Farms(ProgramTest):
         return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
 
     def end(self, task, code=0):
-        out, error = task.communicate(timeout=60)
+        out, error = task.communicate(timeout=SECONDS)
         self.assertEqual(task.returncode, code, out + error)
         return out, error
 
@@ -104,11 +105,14 @@ class Farms(ProgramTest):
         self.run_all_at_once([[command["parameters"]["exe"], *command["parameters"]["args"]] for command in commands])
 
     def test_a_stopped_chunk_goes_on_and_says_how_far_it_is(self):
-        film = self.write("long.json", spinning_teapot(ENDLESS, [64, 48]))
+        film = self.write("long.json", spinning_teapot(2000, [160, 90]))
         words = ["mars", "render", str(film), "-o", str(self.frames), "--restarts", "0", "--frames"]
         task = self.start([*words, "0-"])
-        while not (match := re.match(r"Progress: (\d+)%, ", task.stdout.readline())):
-            self.assertIsNone(task.poll())
+        self.addCleanup(task.kill)
+        wait_until(lambda: len(list(self.frames.glob("frame-*.png"))) > 3, SECONDS, "no frame")
+        with stopped(family(task.pid)):
+            while not (match := re.match(r"Progress: (\d+)%, ", task.stdout.readline())):
+                self.assertIsNone(task.poll())
         self.assertLess(int(match[1]), 100)
         task.send_signal(signal.SIGTERM)
         self.end(task, 1)

@@ -9,14 +9,14 @@ import signal
 import subprocess
 import time
 
-from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, family, main, spinning_teapot,
-                     wait_until)
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, kill, main,
+                     spinning_teapot, stopped, wait_until)
 
-LONG = 30000  # frames: more than are rendered while a test looks on
+LONG = 12000  # frames: more than one node renders while a test looks on; and a film is compiled by every run
 SMALL = ["--nodes", 1, "--backend", "threads", "--quiet"]
 
 
-class Folders(ProgramTest):
+class Folders(SideBySide, ProgramTest):
     def setUp(self):
         super().setUp()
         self.out = self.folder / "out"
@@ -36,8 +36,7 @@ class Folders(ProgramTest):
 
     def kill(self, process):
         """It and all it started, without a chance to clear anything away."""
-        for each in [process.pid, *family(process.pid)]:
-            os.kill(each, signal.SIGKILL)
+        kill([process.pid, *family(process.pid)])
         process.communicate()
 
     def assertOnlyFrames(self):
@@ -45,26 +44,26 @@ class Folders(ProgramTest):
         self.assertNothingTorn(self.out)
 
     def test_short_runs_do_no_harm_to_a_long_one(self):
-        long = self.start("0-999")
+        long = self.start("0-599")
         for frame in range(5000, 5004):
             self.succeed("mars", "render", self.film, "-o", "out", *SMALL, "--frames", frame)
         printed = long.communicate(timeout=SECONDS)
         self.assertEqual((long.returncode, printed[1]), (0, ""))
-        self.assertIn("1004 frames, all there and whole", self.succeed("mars", "verify", "out"))
+        self.assertIn("604 frames, all there and whole", self.succeed("mars", "verify", "out"))
         self.assertOnlyFrames()
 
     def test_frames_of_two_runs_are_not_mixed(self):
-        long = self.start("0-99,200-25000")
-        by = r"another run, process \d+ on host \S+, renders frames 0-99,200-25000 of "
+        long = self.start("0-99,200-11000")
+        by = r"another run, process \d+ on host \S+, renders frames 0-99,200-11000 of "
         for film, frames, says in [(self.film, "99-150", r"give other frames"),
-                                   (self.other, "29000", r"give another folder"),
-                                   (self.film, "29000", r"")]:
+                                   (self.other, "11900", r"give another folder"),
+                                   (self.film, "11900", r"")]:
             done = self.render(film, frames)
             self.assertEqual(done.returncode, int(bool(says)), done.stderr)
             if says:
                 self.assertClear(done.stderr, "mars: out: another run")
                 self.assertRegex(done.stderr, by + rf"\S+film.json into this folder since [\d:]+ \({says}")
-        done = self.render(self.film, "29000", "--size", "32x18")
+        done = self.render(self.film, "11900", "--size", "32x18")
         self.assertIn("of another version, size or format of ", done.stderr)
         self.assertIsNone(long.poll())
         long.terminate()
@@ -111,16 +110,16 @@ class Folders(ProgramTest):
         self.assertIn('"event":"loaded"', events.read_text())
 
     def test_a_stopped_run_keeps_its_claim_and_a_killed_one_does_not(self):
-        long = self.start("0-25000")
+        long = self.start("0-11000")
         for each in family(long.pid):
             os.kill(each, signal.SIGSTOP)
-        self.assertIn("another run", self.render(self.film, "25000").stderr)
+        self.assertIn("another run", self.render(self.film, "11000").stderr)
         self.assertEqual(self.render(self.film, "0").returncode, 0, "that is there already")
         self.kill(long)
         self.assertTrue((self.out / ".runs").exists())
         self.assertEqual(self.render(self.film, "0").returncode, 0)
         self.assertFalse((self.out / ".runs").exists(), "it clears up also where nothing is left to render")
-        self.assertEqual(self.render(self.film, "25000").returncode, 0)
+        self.assertEqual(self.render(self.film, "11000").returncode, 0)
         self.assertOnlyFrames()
 
     def test_after_a_kill_only_what_is_missing_is_rendered(self):
@@ -140,34 +139,26 @@ class Folders(ProgramTest):
     def test_a_manifest_that_is_spoilt_while_a_run_renders(self):
         """Cut short, or replaced by what it may not replace: exit code 0 only with a folder that verify takes."""
         for spoilt, code in [('{"checksum": "0123', 0), ('{"version": 99}', 1)]:
-            run = self.start("0-999", self.backends()[-1])
-            kin = family(run.pid)
-            for each in kin:
-                os.kill(each, signal.SIGSTOP)
-            self.assertTrue((self.out / ".runs").exists(), "it has ended already")
-            (self.out / "frames.json").write_text(spoilt)
-            for each in kin:
-                os.kill(each, signal.SIGCONT)
+            run = self.start("0-399", self.backends()[-1])
+            with stopped(family(run.pid)):
+                self.assertTrue((self.out / ".runs").exists(), "it has ended already")
+                (self.out / "frames.json").write_text(spoilt)
             printed = run.communicate(timeout=SECONDS)[1]
             self.assertEqual(run.returncode, code, printed)
             if code != 0:
                 self.assertClear(printed, "out/frames.json: cannot be read: it has version 99 and this MARS knows")
                 continue
             self.assertIn("mars: warning: frames.json was lost or damaged", printed)
-            self.assertIn("1000 frames, all there and whole", self.succeed("mars", "verify", "out"))
+            self.assertIn("400 frames, all there and whole", self.succeed("mars", "verify", "out"))
             self.assertOnlyFrames()
 
     def test_frames_that_somebody_removes_while_a_run_renders(self):
         run = self.start("0-399")
-        kin = family(run.pid)
-        for each in kin:
-            os.kill(each, signal.SIGSTOP)
-        self.assertTrue((self.out / ".runs").exists(), "it has ended already")
-        there = sorted(self.out.glob("*.png"))
-        self.assertTrue(there, "it has only begun")
-        there[0].unlink()
-        for each in kin:
-            os.kill(each, signal.SIGCONT)
+        with stopped(family(run.pid)):
+            self.assertTrue((self.out / ".runs").exists(), "it has ended already")
+            there = sorted(self.out.glob("*.png"))
+            self.assertTrue(there, "it has only begun")
+            there[0].unlink()
         printed = run.communicate(timeout=SECONDS)[1]
         self.assertEqual(run.returncode, 0, printed)
         self.assertIn("400 frames, all there and whole", self.succeed("mars", "verify", "out"))
@@ -190,7 +181,7 @@ class Folders(ProgramTest):
         self.assertEqual(self.verified_hash("out"), expected)
 
 
-class GoingOn(ProgramTest):
+class GoingOn(SideBySide, ProgramTest):
     """The command that started a rendering also goes on with it."""
 
     def setUp(self):

@@ -2,11 +2,13 @@
 and completion say what the programs say themselves. And what ./bootstrap says where it may not install."""
 
 import gzip
+import itertools
 import os
 import pathlib
 import pty
 import re
 import select
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -14,40 +16,68 @@ import time
 import unittest
 
 import harness
-from harness import BUILD, HAVE_MPI, ProgramTest, main, needs
+from harness import BUILD, HAVE_MPI, ProgramTest, SideBySide, main, needs
 
 STARTERS = ["mars", "mars-threads", "mars-simulated", "mars-nx"] + ["mars-host", "mars-ranks"] * HAVE_MPI  # nodes take no arguments
 
+# What bash offers for each of several lines of words, and an empty line after each.
 COMPLETE = """
 set -u
 source "$1"
-shift
-COMP_WORDS=("$@") COMP_CWORD=$(($# - 1))
 function=$(complete -p "${1##*/}" | sed 's/.*-F \\([^ ]*\\).*/\\1/')
-"$function" "$1" "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}"
-[ ${#COMPREPLY[@]} = 0 ] || printf '%s\\n' "${COMPREPLY[@]}"
+words() {
+  COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)) COMPREPLY=()
+  "$function" "$1" "${COMP_WORDS[COMP_CWORD]}" "${COMP_WORDS[COMP_CWORD - 1]}"
+  [ ${#COMPREPLY[@]} = 0 ] || printf '%s\\n' "${COMPREPLY[@]}"
+  echo
+}
 """
 
 
-class Installation(ProgramTest):
-    @classmethod
-    def setUpClass(cls):
-        work = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
-        harness.install(work / "first", "--strip")
-        cls.prefix = (work / "first").rename(work / "moved here")
-        harness.PROGRAMS = cls.prefix / "bin"
+def setUpModule():
+    work = pathlib.Path(unittest.enterModuleContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
+    harness.install(work / "first", "--strip")
+    Installation.prefix = (work / "first").rename(work / "moved here")
+    harness.PROGRAMS = Installation.prefix / "bin"
 
+
+class Installation(ProgramTest):
     def rows(self):
         """Each starter's table of options: program to rows of fields."""
         return {each: [row.split("\t") for row in self.succeed(each, "--list-options").splitlines()]
                 for each in STARTERS}
 
 
-class Installed(Installation):
+class Installed(SideBySide, Installation):
+    AT_ONCE = 2
+
     def complete(self, *words):
-        words = [harness.PROGRAMS / words[0], *words[1:]]
-        script = self.prefix / "share/bash-completion/completions" / words[0].name
-        return self.succeed("bash", "-c", COMPLETE, "bash", script, *words).splitlines()
+        return self.complete_all(harness.PROGRAMS / words[0], [words[1:]])[0]
+
+    def complete_all(self, program, lines):
+        """What is offered for each of the lines, which are words after the program's name."""
+        script = self.prefix / "share/bash-completion/completions" / program.name
+        asked = "".join(shlex.join(["words", str(program), *words]) + "\n" for words in lines)
+        offered = [[]]
+        for line in self.succeed("bash", "-c", COMPLETE + asked, "bash", script).splitlines():
+            if line:
+                offered[-1].append(line)
+            else:
+                offered.append([])
+        return offered[:-1]
+
+    def tables(self):
+        """(program, its rows) for each starter. For mars several: a program that says no more than a first command and all
+        within it, because bash takes long to read the whole table."""
+        for program, rows in self.rows().items():
+            for first in dict.fromkeys(" ".join(row[1].split(" ")[:2]) for row in rows if row[0] != "setting"):
+                part = [row for row in rows if row[0] != "setting" and
+                        (row[1] in (program, first) or first != program and row[1].startswith(first + " "))]
+                folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+                (folder / "rows").write_text("".join("\t".join(row) + "\n" for row in part))
+                (folder / program).write_text(f"#!/bin/sh\nexec cat {folder}/rows\n")
+                (folder / program).chmod(0o755)
+                yield folder / program, [row for row in part if first == program or row[1] != program]
 
     def test_renders_an_installed_example(self):
         film = self.prefix / "share/doc/mars/examples/robot-arm.json"
@@ -111,25 +141,36 @@ class Installed(Installation):
             self.assertTrue((self.prefix / "share" / name).is_file(), name)
 
     def test_completes_commands_and_options(self):
-        for program, rows in self.rows().items():
-            commands = [row[1].split(" ") for row in rows if row[0] == "command"]
+        commands = [row[1].split(" ") for row in self.rows()["mars"] if row[0] == "command"]
+        self.assertEqual(self.complete("mars", ""), [each[-1] for each in commands if len(each) == 2])
+        for program, rows in self.tables():
+            commands, expected = [row[1].split(" ") for row in rows if row[0] == "command"], []
             for words in commands:
                 within = [each[-1] for each in commands if each[:-1] == words]
                 arguments = [row for row in rows if row[:2] == ["argument", " ".join(words)]]
                 if within and not arguments:
-                    self.assertEqual(self.complete(*words, ""), within)
+                    expected.append(([*words[1:], ""], within))
                 names = [name for row in rows if row[:2] == ["option", " ".join(words)] for name in row[2].split(",")]
-                self.assertEqual(self.complete(*words, "-"), names)
+                expected.append(([*words[1:], "-"], names))
+            self.assertOffers(program, expected)
+
+    def assertOffers(self, program, expected):
+        """Pairs of words and of what is offered for them."""
+        offered = self.complete_all(program, [words for words, _ in expected])
+        for (words, each), ours in itertools.zip_longest(expected, offered):
+            self.assertEqual(ours, each, words)
 
     def test_completes_values(self):
         some = 0
-        for rows in self.rows().values():
+        for program, rows in self.tables():
+            expected = []
             for row in rows:
                 if row[0] == "option" and "|" in row[3]:
                     some += 1
-                    name = row[2].split(",")[-1]
-                    self.assertEqual(self.complete(*row[1].split(" "), name, ""), row[3].split(" ")[0].split("|"))
-                    self.assertEqual(self.complete(*row[1].split(" "), name, "=", ""), row[3].split(" ")[0].split("|"))
+                    words = [*row[1].split(" ")[1:], row[2].split(",")[-1]]
+                    values = row[3].split(" ")[0].split("|")
+                    expected += [([*words, ""], values), ([*words, "=", ""], values)]
+            self.assertOffers(program, expected)
         self.assertGreater(some, 0)
 
     def test_completes_commands_within_commands(self):
@@ -180,6 +221,8 @@ class Installed(Installation):
                                          HOME=str(self.folder)))
             self.assertEqual([line.split("\t")[0] for line in printed.splitlines()], offered, typed)
 
+
+class Zsh(Installation):
     @needs("zsh")
     def test_zsh_completes_commands_within_commands(self):
         self.write("dog.json", "")
@@ -193,7 +236,7 @@ class Installed(Installation):
 
         def shows(typed, wanted):
             os.write(terminal, typed.encode())
-            printed, end = "", time.monotonic() + 20
+            printed, end = "", time.monotonic() + harness.SECONDS
             while wanted not in printed and time.monotonic() < end:
                 if select.select([terminal], [], [], 0.1)[0]:
                     printed += os.read(terminal, 65536).decode(errors="replace")

@@ -5,12 +5,11 @@ import ipaddress
 import os
 import pathlib
 import re
-import signal
 import socket
 import unittest
 
-from harness import (ENVIRONMENT, MPICH, PROGRAMS, ProgramTest, family, living, main, needs_mpi, spinning_teapot,
-                     wait_until)
+from harness import (ENDLESS, ENVIRONMENT, MPICH, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, kill, living, main,
+                     needs_mpi, spinning_teapot, wait_until)
 
 SHARED = pathlib.Path("/dev/shm")
 FOLDER_SETTINGS = ["OMPI_MCA_orte_tmpdir_base", "OMPI_MCA_btl_vader_backing_directory"]
@@ -36,7 +35,7 @@ def listeners(processes):
     return found
 
 
-class LocalJobs(ProgramTest):
+class LocalJobs(SideBySide, ProgramTest):
     def setUp(self):
         super().setUp()
         self.temporary = self.folder / "tmp"
@@ -45,7 +44,7 @@ class LocalJobs(ProgramTest):
         self.environment = dict(ENVIRONMENT, TMPDIR=str(self.temporary))
 
     def start(self, *words):
-        film = self.write("long.json", spinning_teapot(20000, [160, 90]))
+        film = self.write("long.json", spinning_teapot(ENDLESS, [160, 90]))
         return self.start_mars("render", film, "-o", "out", "--nodes", 2, *words, env=self.environment)
 
     @staticmethod
@@ -96,9 +95,8 @@ class LocalJobs(ProgramTest):
         left = self.folders_of(everyone)
         self.assertEqual([path.parent for path in left], [SHARED, self.temporary])
         self.assertTrue(all(any(path.iterdir()) for path in left), left)
-        for each in [process.pid, *everyone]:
-            os.kill(each, signal.SIGKILL)
-        wait_until(lambda: not living(everyone), 10, "they live on")
+        kill([process.pid, *everyone])
+        wait_until(lambda: not living(everyone), SECONDS, "they live on")
         self.assertTrue(any(left[1].iterdir()), left)  # the other may be gone: any start on this machine removes it
         self.render_a_frame()
         self.assertEqual([path for path in left if path.exists()], [])
@@ -137,8 +135,8 @@ class LocalJobs(ProgramTest):
         if not MPICH:
             self.assertEqual([path.parent for path in named], [SHARED, self.temporary])
             self.assertTrue(all(re.fullmatch(re.escape(NAMED) + ".{6}", path.name) for path in named), named)
-        wait_until(lambda: not any(path.exists() for path in named), 10, "its folders stay")
-        wait_until(lambda: not self.processes(), 10, "who removed them stays")
+        wait_until(lambda: not any(path.exists() for path in named), SECONDS, "its folders stay")
+        wait_until(lambda: not self.processes(), SECONDS, "who removed them stays")
         done = self.run_program("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, "--", ":")
         self.assertClear(done.stderr, "mpirun takes : for the end of a program's arguments")
 

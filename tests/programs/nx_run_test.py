@@ -9,8 +9,8 @@ import tempfile
 import time
 import unittest
 
-import harness
-from harness import ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SOURCES, ProgramTest, family, living, main, needs_mpi, wait_until
+from harness import (ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SECONDS, SOURCES, ProgramTest, SideBySide, family, living, main,
+                     needs_mpi, wait_until)
 
 LIBRARY = PROGRAMS.parent / "hal/program"
 MARS_NX = PROGRAMS / "mars-nx"
@@ -193,19 +193,35 @@ int main(void) {
 LOOP = "#include <cube.h>\nint main(void) { long x; for (;;) crecv(-1, &x, sizeof x); }\n"
 ECHO = '#include <cube.h>\nstatic char x[1000];\nint main(void) { crecv(1, x, sizeof x); csend(2, x, sizeof x, myhost(), 0); return 0; }\n'
 BUSY = '#include <cube.h>\n#include <unistd.h>\nint main(void) { mynode(); sleep(2); return 0; }\n'
+STORM = r"""
+#include <cube.h>
+int main(void) {
+  long x[300], n = numnodes(), i = 0;
+  for (;; i++) {
+    csend(1, x, (i * 37) % sizeof x, (mynode() + i) % n, 0);
+    if (i % 7 == 0) crecv(-1, x, sizeof x);
+    while (iprobe(-1)) crecv(-1, x, sizeof x);
+  }
+}
+"""
 SQUARE = '#include <cube.h>\nint main(void) { long x; crecv(10, &x, sizeof x); x *= x; csend(11, &x, sizeof x, myhost(), 0); return 0; }\n'
 
 
-class NxRun(ProgramTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.programs = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
-        for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY), ("fork", FORK), ("echo", ECHO), ("talk", TALK), ("square", SQUARE)]:
-            source = cls.programs / f"{name}.c"
-            source.write_text(text)
-            subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", cls.programs / name, "-L", LIBRARY, "-lmars-nx",
-                            f"-Wl,-rpath,{LIBRARY}"], check=True)
+def compile_program(folder, name, text):
+    source = folder / f"{name}.c"
+    source.write_text(text)
+    subprocess.run(["cc", "-I", SOURCES / "hal/nx", source, "-o", folder / name, "-L", LIBRARY, "-lmars-nx",
+                    f"-Wl,-rpath,{LIBRARY}"], check=True)
 
+
+def setUpModule():
+    NxRun.programs = pathlib.Path(unittest.enterModuleContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
+    for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY),
+                       ("fork", FORK), ("echo", ECHO), ("talk", TALK), ("square", SQUARE), ("storm", STORM)]:
+        compile_program(NxRun.programs, name, text)
+
+
+class NxRun(SideBySide, ProgramTest):
     def setUp(self):
         super().setUp()
         self.folder = self.programs
@@ -250,7 +266,7 @@ class NxRun(ProgramTest):
         return next(pid for pid, (_, _, file) in processes.items() if pathlib.Path(file).name == program)
 
     def gone(self, processes):
-        wait_until(lambda: not living(processes), 10, f"still there: {living(processes)}")
+        wait_until(lambda: not living(processes), SECONDS, lambda: f"still there: {living(processes)}")
 
 
 class Starts(NxRun):
@@ -479,7 +495,7 @@ class Kills(NxRun):
         for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
             process, all_of_it = self.start_sleeping(3)
             process.send_signal(number)
-            self.assertEqual(process.wait(10), 128 + number)
+            self.assertEqual(process.wait(SECONDS), 128 + number)
             self.assertEqual(process.stderr.read(), "")
             self.gone(all_of_it)
 
@@ -488,29 +504,25 @@ class Kills(NxRun):
         os.kill(self.pid_of(all_of_it, "node"), signal.SIGKILL)
         self.assertIn("died: signal 9", process.stderr.readline())
         os.kill(self.pid_of(all_of_it, "host"), signal.SIGKILL)
-        self.assertEqual(process.wait(15), 137)
+        self.assertEqual(process.wait(SECONDS), 137)
         self.gone(all_of_it)
 
     def test_the_host_is_killed(self):
         process, all_of_it = self.start_sleeping(3)
         os.kill(self.pid_of(all_of_it, "host"), signal.SIGKILL)
         self.assertEqual(process.stderr.readline(), "mars-nx: the host died: signal 9 (Killed)\n")
-        self.assertEqual(process.wait(15), 137)
+        self.assertEqual(process.wait(SECONDS), 137)
         self.gone(all_of_it)
 
     def test_at_any_instant(self):
         """Nodes that send for ever, one of them killed at a time of its own: the others always end at once."""
-        source = self.write("storm.c", '#include <cube.h>\nint main(void) { long x[300], n = numnodes(), i = 0; for (;; i++) { '
-                            'csend(1, x, (i * 37) % sizeof x, (mynode() + i) % n, 0); if (i % 7 == 0) crecv(-1, x, sizeof x); '
-                            'while (iprobe(-1)) crecv(-1, x, sizeof x); } }\n')
-        self.succeed("cc", "-I", SOURCES / "hal/nx", source, "-o", "storm", "-L", LIBRARY, "-lmars-nx", f"-Wl,-rpath,{LIBRARY}")
         for i in range(12):
             process = self.start("--nodes", 4, "./storm")
-            wait_until(lambda: len(family(process.pid)) == 4, 10, "no nodes")
+            wait_until(lambda: len(family(process.pid)) == 4, SECONDS, "no nodes")
             time.sleep(0.01 * i)
             all_of_it = family(process.pid)
             os.kill(list(all_of_it)[i % 4], signal.SIGKILL)
-            self.assertEqual(process.wait(10), 137)
+            self.assertEqual(process.wait(SECONDS), 137)
             self.assertEqual(len(process.stderr.read().splitlines()), 1)
             self.gone(all_of_it)
 

@@ -7,17 +7,21 @@ import struct
 import subprocess
 import termios
 
-from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SANITIZED, ProgramTest, main, spinning_teapot
+from harness import (ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, main, spinning_teapot, stopped,
+                     wait_until)
 
 TEAPOT = EXAMPLES / "teapot.json"
+FEW = ["--frames", "0-3"]
 
 
-class Output(ProgramTest):
+class Output(SideBySide, ProgramTest):
+    """What mars shows as time goes by, it shows of a job that stands still too."""
+
     def test_quiet_says_nothing(self):
-        self.assertEqual(self.succeed("mars", "render", TEAPOT, "-o", "out", "--quiet"), "")
+        self.assertEqual(self.succeed("mars", "render", TEAPOT, "-o", "out", *FEW, "--quiet"), "")
 
     def test_the_line_shown_can_be_pasted(self):
-        film = self.write("it's a film.json", TEAPOT.read_text())
+        film = self.write("it's a film.json", spinning_teapot(4, [64, 36]))
         for backend in self.backends():
             printed = self.succeed("mars", "render", film, "-o", "a b", "--backend", backend, "--nodes", 2,
                                    "--overwrite")
@@ -28,7 +32,7 @@ class Output(ProgramTest):
             self.assertEqual(self.verified_hash("a b"), expected)
 
     def test_what_cannot_be_printed_is_a_failure(self):
-        self.succeed("mars", "render", TEAPOT, "-o", "out", "--quiet")
+        self.succeed("mars", "render", TEAPOT, "-o", "out", *FEW, "--quiet")
         for words in (["verify", "out"], ["info", TEAPOT], ["keys"], ["--help"]):
             with open("/dev/full", "w") as full:
                 done = subprocess.run([PROGRAMS / "mars", *words], stdout=full, stderr=subprocess.PIPE, text=True,
@@ -61,33 +65,51 @@ class Output(ProgramTest):
             self.assertClear(self.mars(*render, "--report", "r", "--trace", other).stderr, "for the report and for the trace")
 
     def test_plain_lines_in_a_pipe(self):
-        film = self.write("film.json", spinning_teapot(1500, [160, 90]))
-        printed = self.succeed("mars", "render", film, "-o", "out", "--nodes", 1, "--backend", "threads",
-                            "--frames", "0-1199")
-        self.assertNotIn("\r", printed)
-        self.assertNotIn("\x1b", printed)
-        lines = printed.splitlines()
-        self.assertLess(len(lines), 400 if SANITIZED else 40)
+        film = self.write("film.json", spinning_teapot(400, [160, 90]))
+        words = ["render", film, "-o", "out", "--nodes", "1", "--backend", "threads", "--frames", "0-299"]
+        with open(self.folder / "printed.txt", "w") as printed:
+            process = subprocess.Popen([PROGRAMS / "mars", *words], stdout=printed, env=ENVIRONMENT, cwd=self.folder)
+        self.addCleanup(self.end, process)
+        printed = (self.folder / "printed.txt").read_text
+        wait_until(lambda: len(list(self.folder.glob("out/*.png"))) > 3, SECONDS, "no frame")
+        with stopped(family(process.pid)):
+            wait_until(lambda: "Progress: " in printed(), SECONDS, "no line of the progress")
+        self.assertEqual(process.wait(SECONDS), 0)
+        self.assertNotIn("\r", printed())
+        self.assertNotIn("\x1b", printed())
+        lines = printed().splitlines()
+        self.assertLess(len(lines), 150)
         self.assertRegex(lines[1], r"^1 node on 1 machine \(threads\)")
         for line in lines[2:-1]:
-            self.assertRegex(line, r"^Progress: \d+%, frame \d+ of 1200, interval \d+ of \d+, [\d.]+ frames/s, \d+:\d\d left")
-        self.assertRegex(lines[-1], r"^1200 frames in out, [\d.]+ seconds, [\d.]+ frames/s$")
+            self.assertRegex(line, r"^Progress: \d+%, frame \d+ of 300, interval \d+ of \d+, [\d.]+ frames/s, \d+:\d\d left")
+        self.assertRegex(lines[-1], r"^300 frames in out, [\d.]+ seconds, [\d.]+ frames/s$")
 
     def test_one_line_on_a_terminal(self):
-        film = self.write("film.json", spinning_teapot(1000, [240, 135]))
+        film = self.write("film.json", spinning_teapot(200, [240, 135]))
         ours, theirs = pty.openpty()
         fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
-        process = subprocess.Popen([PROGRAMS / "mars", "render", film, "-o", "out", "--backend", "threads"],
+        process = subprocess.Popen([PROGRAMS / "mars", "render", film, "-o", "out", "--nodes", "1", "--backend", "threads"],
                                    stdout=theirs, env=ENVIRONMENT, cwd=self.folder)
+        self.addCleanup(self.end, process)
         os.close(theirs)
-        shown = self.read_all(ours)
+        shown = self.read_states(ours, 1)
+        with stopped(family(process.pid)):
+            shown += self.read_states(ours, 3)
+        shown += self.read_all(ours)
         self.assertEqual(process.wait(), 0)
         states = [part for part in shown.split("\r\x1b[K") if part.startswith("frame ")]
         self.assertGreater(len(states), 3)
         for state in states:
             self.assertLess(len(state.splitlines()[0]), 60)
         self.assertEqual(sum("\n" in state for state in states), 1)  # the last one stays
-        self.assertRegex(shown.splitlines()[-1], r"1000 frames in out, ")
+        self.assertRegex(shown.splitlines()[-1], r"200 frames in out, ")
+
+    @staticmethod
+    def read_states(terminal, count):
+        shown = ""
+        while shown.count("\r\x1b[Kframe ") < count:
+            shown += os.read(terminal, 65536).decode()
+        return shown
 
     @staticmethod
     def read_all(terminal):

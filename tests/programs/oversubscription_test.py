@@ -3,63 +3,52 @@
 import os
 import pathlib
 import re
-import signal
 import time
-
 import unittest
 
-from harness import ENDLESS, MPICH, ProgramTest, family, main, needs_mpi, spinning_teapot
+from harness import (ENDLESS, MPICH, SECONDS, ProgramTest, family, main, needs_mpi, spinning_teapot, stopped, wait_until)
+
+SLEEPS = 100  # of a process that looks at most 1000 times a second whether something came, and sleeps between
 
 
-def sleeps(process):
-    """Whether its main thread sleeps, rather than runs or is ready to."""
-    return pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] == "S"
+def tasks_of(process):
+    return pathlib.Path(f"/proc/{process}/task").iterdir()
 
 
 def times_it_slept(process):
     """How often its threads have gone to sleep. A thread that spins or yields does not."""
-    tasks = pathlib.Path(f"/proc/{process}/task").glob("*/status")
-    return sum(int(re.search(r"^voluntary_ctxt_switches:\s*(\d+)", task.read_text(), re.M)[1]) for task in tasks)
+    return sum(int(re.search(r"^voluntary_ctxt_switches:\s*(\d+)", (task / "status").read_text(), re.M)[1])
+               for task in tasks_of(process))
+
+
+def seconds_it_ran(process):
+    return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks_of(process)) / 1e9
 
 
 @needs_mpi
 @unittest.skipIf(MPICH, "MPICH spins while it starts, for seconds where ranks share processors")
 class Oversubscription(ProgramTest):
-    def start_many(self):
+    def assert_sleep_between_looks(self, processes):
+        """What a look costs is the machine's, and how soon the process runs again, too. But it takes little of a processor
+        until it sleeps again, where a process that spins takes all that it gets."""
+        began, before = time.monotonic(), {each: (times_it_slept(each), seconds_it_ran(each)) for each in processes}
+        for each, (slept, ran) in before.items():
+            wait_until(lambda: times_it_slept(each) >= slept + SLEEPS, SECONDS, "it spins", pause=0.1)
+            sleeps = times_it_slept(each) - slept
+            self.assertLess((seconds_it_ran(each) - ran) / sleeps, 0.001)
+            self.assertLess(sleeps / (time.monotonic() - began), 1500)
+
+    def test_who_waits_sleeps(self):
         film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
-        process = self.start_mars("render", film, "-o", "out", "--nodes", 16, "--backend", "mpi")
+        job = self.start_mars("render", film, "-o", "out", "--nodes", 16, "--backend", "mpi")
         ours = {"mars-host": [], "mars-node": []}
-        for each, (_, _, program) in family(process.pid).items():
+        for each, (_, _, program) in family(job.pid).items():
             ours.get(os.path.basename(program), []).append(each)
-        return ours["mars-host"], ours["mars-node"]
-
-    def assert_sleeps_while_stopped(self, waiting, stopped):
-        """Each of `waiting` looks at most 1000 times a second whether something came (a look that also moves a message
-        of its own on), and sleeps between. What a look costs is the machine's, so the test asks at many moments who
-        sleeps: a process that spins would never be found asleep."""
-        for each in stopped:
-            os.kill(each, signal.SIGSTOP)
-        time.sleep(1)  # until they have nothing left to do
-        start, slept = time.monotonic(), sum(map(times_it_slept, waiting))
-        asleep = {process: [] for process in waiting}
-        while time.monotonic() < start + 3:
-            for process, moments in asleep.items():
-                moments.append(sleeps(process))
-            time.sleep(0.01)
-        seconds = time.monotonic() - start
-        self.assertEqual([process for process, moments in asleep.items() if not any(moments)], [], "these spin")
-        moments = sum(asleep.values(), [])
-        self.assertGreater(sum(moments) / len(moments), 0.3)
-        self.assertLess((sum(map(times_it_slept, waiting)) - slept) / seconds, 1500 * len(waiting))
-
-    def test_nodes_sleep_while_the_host_gives_nothing(self):
-        host, nodes = self.start_many()
-        self.assertEqual((len(host), len(nodes)), (1, 16))
-        self.assert_sleeps_while_stopped(nodes, host)
-
-    def test_the_host_sleeps_while_nodes_give_nothing(self):
-        host, nodes = self.start_many()
-        self.assert_sleeps_while_stopped(host, nodes)
+        self.assertEqual({program: len(processes) for program, processes in ours.items()}, {"mars-host": 1, "mars-node": 16})
+        for waiting, still in [("mars-node", "mars-host"), ("mars-host", "mars-node")]:
+            with self.subTest(waiting=waiting), stopped(ours[still]):
+                time.sleep(1)  # until they have nothing left to do
+                self.assert_sleep_between_looks(ours[waiting])
 
 
 if __name__ == "__main__":

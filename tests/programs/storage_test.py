@@ -1,7 +1,6 @@
 """Storage that takes no files for a while: a rendering waits, says so, and goes on by itself; a signal ends it meanwhile."""
 
 import os
-import resource
 import shutil
 import signal
 import subprocess
@@ -9,10 +8,9 @@ import tempfile
 import time
 import unittest
 
-from harness import (ENDLESS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, family, living, main, needs, spinning_teapot,
-                     wait_until)
+from harness import (ENDLESS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, living, main, needs,
+                     spinning_teapot, wait_until)
 
-SOON = 16  # seconds from a signal to the end, and a little
 FRAMES = 40
 WITHIN_RIGHTS = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
 
@@ -25,7 +23,7 @@ class Mounts:
     """Mounts that only programs started here see, and that are gone with the last of them."""
 
     def __init__(self):
-        self.holder = subprocess.Popen(["unshare", "--mount", "sh", "-c", "echo; exec sleep 200"], stdout=subprocess.PIPE)
+        self.holder = subprocess.Popen(["unshare", "--mount", "sh", "-c", "echo; exec sleep 600"], stdout=subprocess.PIPE)
         self.holder.stdout.readline()
         holder = f"/proc/{self.holder.pid}"
         # With its root: this system may be in a changed one.
@@ -39,7 +37,7 @@ class Mounts:
 
     def thaws_at_last(self, disk):
         """However this test ends: what is frozen for ever could not even be unmounted."""
-        return subprocess.Popen([*self.enter, "sh", "-c", f"sleep 150; exec fsfreeze -u '{disk}'"])
+        return subprocess.Popen([*self.enter, "sh", "-c", f"sleep 500; exec fsfreeze -u '{disk}'"])
 
     def end(self):
         self.holder.kill()
@@ -58,7 +56,7 @@ def can_mount():
 needs_mounts = unittest.skipUnless(can_mount(), "may not mount a small disk")
 
 
-class Storage(ProgramTest):
+class Storage(SideBySide, ProgramTest):
     FOLDERS = "/tmp"
 
     def setUp(self):
@@ -94,8 +92,8 @@ class Storage(ProgramTest):
         self.said.seek(0)
         return self.said.read()
 
-    def hears(self, process, what, seconds=SECONDS):
-        wait_until(lambda: what in self.words() or process.poll() is not None, seconds, f"it says nothing of {what}")
+    def hears(self, process, what):
+        wait_until(lambda: what in self.words() or process.poll() is not None, SECONDS, f"it says nothing of {what}")
         self.assertIn(what, self.words())
         self.assertIsNone(process.poll(), self.words())
 
@@ -115,9 +113,7 @@ class Storage(ProgramTest):
     def assertStops(self, process):
         kin = family(process.pid)
         process.send_signal(signal.SIGTERM)
-        began = time.monotonic()
-        process.wait(timeout=SECONDS)
-        self.assertLess(time.monotonic() - began, SOON)
+        process.wait(timeout=SECONDS)  # waiting for storage lasts 10 minutes
         self.assertEqual(process.returncode, 1)
         self.assertIn("stopped by Terminated", self.words().splitlines()[-1])
         return kin
@@ -217,7 +213,7 @@ class Storage(ProgramTest):
                 process = self.start(backend=backend)
                 wait_until(lambda: len(list(self.out.glob("*.png"))) > 3, SECONDS, "no frame")
                 self.out.rename(self.disk / "removed")
-                self.assertEqual(process.wait(timeout=SOON), 1)
+                self.assertEqual(process.wait(timeout=SECONDS), 1)
                 shutil.rmtree(self.disk / "removed")  # not before: a file that was being made may still come into it
                 self.assertClear(self.words(), f"{self.out}: the folder was removed or renamed while frames were rendered "
                                                "into it (the same command renders into a new one")
@@ -267,10 +263,9 @@ class Storage(ProgramTest):
         wait_until(lambda: not living(kin), SECONDS, "what the kernel held lives on")
 
     def test_files_that_may_not_grow(self):
-        def limit():
-            resource.setrlimit(resource.RLIMIT_FSIZE, (8000, 8000))
-        self.fail_clearly(1, "render", self.film, "-o", "out", "--backend", "threads", preexec_fn=limit,
-                          says="raise ulimit -f, which says how large files may grow")
+        done = self.run_program("prlimit", "--fsize=8000", PROGRAMS / "mars", "render", self.film, "-o", "out", "--backend", "threads")
+        self.assertClear(done.stderr, "raise ulimit -f, which says how large files may grow")
+        self.assertEqual(done.returncode, 1)
         self.assertNothingTorn(self.folder / "out")
 
 

@@ -118,7 +118,7 @@ class Commands(FakeSlurm):
 
     def test_a_run_without_slurm(self):
         self.refused(1, "status", "out", says="no folder of frames")
-        self.write("film.json", spinning_teapot(ENDLESS, [64, 36]))
+        self.write("film.json", spinning_teapot(ENDLESS, [320, 180]))
         process = self.start_mars("render", "film.json", "-o", "out", "--backend", "threads", "--nodes", 2)
         wait_until(lambda: " 2 nodes, " in self.slurm("status", "out"), SECONDS, "no status")
         self.assertRegex(self.slurm("status", "out"), rf"out: \d+ of {ENDLESS} frames of film.json\n"
