@@ -7,8 +7,10 @@ import subprocess
 import tempfile
 import time
 
-PATIENCE = 60  # seconds until it is there
-SETTINGS = {"marionette.port": 0, "datareporting.policy.dataSubmissionEnabled": False, "app.normandy.enabled": False,
+from settled import PATIENCE
+
+# Letters that somebody types into a list belong to one word, however slow the machine is.
+SETTINGS = {"marionette.port": 0, "ui.menu.incremental_search.timeout": 60000, "datareporting.policy.dataSubmissionEnabled": False, "app.normandy.enabled": False,
             "browser.startup.homepage_override.mstone": "ignore", "ui.systemUsesDarkTheme": 1}
 KEYS = {"Enter": "\ue007", "Escape": "\ue00c", "ArrowDown": "\ue015", "ArrowRight": "\ue014", "Control": "\ue009"}
 
@@ -26,6 +28,7 @@ class Firefox:
         self.number = 0
         self.read()
         self.command("WebDriver:NewSession")
+        self.command("WebDriver:SetTimeouts", script=2000 * PATIENCE)
 
     def port(self):
         file, end = self.profile / "MarionetteActivePort", time.monotonic() + PATIENCE
