@@ -36,13 +36,14 @@ check_needs() {
     "munge openssh-server openmpi-bin iproute2 procps)"
 }
 
-# A host is one process with its own namespaces; everything on the host ends with that process.
+# A host is one process with its own namespaces; everything on the host ends with that process. Its last word names
+# the testbed: after this machine was switched off, a file may hold the number of another process.
+is_host() { grep -qszxF "testbed-$name" "/proc/$1/cmdline"; }
 pid_of() {
-  local file=$dir/pid/$1
-  if ! kill -0 "$(cat "$file" 2>/dev/null || echo none)" 2>/dev/null; then
-    give_up "no host $1 (testbed.sh up starts all)"
-  fi
-  cat "$file"
+  local pid
+  pid=$(cat "$dir/pid/$1" 2>/dev/null || echo none)
+  is_host "$pid" || give_up "no host $1 (testbed.sh up starts all)"
+  echo "$pid"
 }
 
 # Runs a command on host $1. The switch is only a network: at_switch.
@@ -64,7 +65,8 @@ start_daemon() {
 start_namespaces() {
   local host=$1
   shift
-  setsid unshare --net "$@" --fork --kill-child sh -c 'sleep infinity & wait' </dev/null >/dev/null 2>&1 &
+  setsid unshare --net "$@" --fork --kill-child sh -c 'sleep infinity & wait' "testbed-$name" </dev/null >/dev/null \
+    2>&1 &
   local outer=$!
   until pgrep -P "$outer" >"$dir/pid/$host"; do
     kill -0 "$outer" 2>/dev/null || give_up "cannot make namespaces for $host; see: unshare --net $*"
@@ -180,9 +182,10 @@ up() {
 
 # Ends every host, in whatever state; keeps the logs.
 stop_all() {
-  local file
+  local file pid
   for file in "$dir"/pid/*; do
-    if [ -s "$file" ]; then kill -9 "$(cat "$file")" 2>/dev/null || true; fi
+    pid=$(cat "$file" 2>/dev/null || echo none)
+    if is_host "$pid"; then kill -9 "$pid" 2>/dev/null || true; fi
     rm -f "$file"
   done
 }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::uint32_t kSmallestClass = 6;  // 64 bytes: a cache line
 constexpr std::uint32_t kLastSmall = 16;     // classes up to it come in slabs, whose memory is never given back
 constexpr std::size_t kSlab = 64 * 1024;
-constexpr std::uint64_t kPage = 4096;
+constexpr std::uint64_t kHeapPage = 4096;
 
 std::uint32_t class_for(std::size_t length) {
   return std::max<std::uint32_t>(kSmallestClass, std::bit_width(length - (length > 0)));
@@ -85,7 +85,7 @@ Offset Heap::carve(std::uint32_t size_class) {
 
 // A large block's memory is counted as it is first used.
 void Heap::touch(Block& block, std::size_t length) {
-  const std::uint64_t needed = (length + 2 * kPage - 1) / kPage * kPage;
+  const std::uint64_t needed = (length + 2 * kHeapPage - 1) / kHeapPage * kHeapPage;
   if (needed > block.touched) reserve(needed - block.touched);
   idle_ -= block.touched;
   block.touched = std::max(block.touched, needed);
@@ -106,8 +106,8 @@ void Heap::fail_full() const {
 
 // Gives the pages after the block's first back; its addresses stay.
 void Heap::hollow(Block& block, Offset offset) {
-  const std::uint64_t first = (offset + sizeof(Block) + kPage - 1) / kPage * kPage;
-  const std::uint64_t last = (offset + block_size(block.size_class)) / kPage * kPage;
+  const std::uint64_t first = (offset + sizeof(Block) + kHeapPage - 1) / kHeapPage * kHeapPage;
+  const std::uint64_t last = (offset + block_size(block.size_class)) / kHeapPage * kHeapPage;
   if (fallocate(segment_.descriptor(), FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, static_cast<off_t>(first),
                 static_cast<off_t>(last - first)) != 0)
     return;

@@ -17,7 +17,7 @@
 namespace mars::processes {
 namespace {
 
-constexpr std::size_t kPage = 4096;
+constexpr std::size_t kSharedPage = 4096;
 
 // A message may come at once from a process on another processor; where processes share one, not before this process
 // has yielded.
@@ -34,7 +34,7 @@ int processors() {
   return CPU_COUNT(&mine);
 }
 
-std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
+std::size_t whole_shared_pages(std::size_t bytes) { return (bytes + kSharedPage - 1) / kSharedPage * kSharedPage; }
 
 }  // namespace
 
@@ -154,7 +154,7 @@ std::shared_ptr<std::byte> ProcessesBackend::share(std::size_t bytes) {
   std::uint32_t state = Share::open;
   const std::uint32_t verdict = bytes <= segment_.header().limit ? Share::granted : Share::refused;
   if (!share.state.compare_exchange_strong(state, verdict)) check(state == verdict, "all nodes share the same bytes");
-  const std::size_t size = std::max(whole_pages(bytes), kPage);
+  const std::size_t size = std::max(whole_shared_pages(bytes), kSharedPage);
   const Offset begin = std::exchange(next_shared_, next_shared_ + size);
   void* block = verdict == Share::refused ? MAP_FAILED
                                           : mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE,

@@ -17,15 +17,15 @@ namespace {
 
 static_assert(std::atomic<Offset>::is_always_lock_free, "processes share these");
 
-constexpr std::size_t kPage = 1 << 16;
+constexpr std::size_t kSegmentPage = 1 << 16;
 // A heap has more addresses than it may use memory: blocks are rounded up, and may have given theirs back.
 constexpr std::uint64_t kLeastCapacity = 1 << 26;
 constexpr std::uint64_t kAllAddresses = std::uint64_t{1} << 45;
 constexpr std::size_t kSharedAddresses = std::size_t{1} << 40;  // addresses, of which few are ever used
 
-std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
+std::size_t whole_segment_pages(std::size_t bytes) { return (bytes + kSegmentPage - 1) / kSegmentPage * kSegmentPage; }
 
-std::size_t front_size(int slots) { return whole_pages(sizeof(Header) + slots * sizeof(Slot)); }
+std::size_t front_size(int slots) { return whole_segment_pages(sizeof(Header) + slots * sizeof(Slot)); }
 
 Failure no_memory(const std::string& what) {
   return Failure("the machine gives no memory that its processes could share: " + what, "",
@@ -36,7 +36,8 @@ Failure no_memory(const std::string& what) {
 
 Segment::Segment(int nodes, bool host, std::uint64_t limit) : descriptor_(memfd_create("mars-nx", MFD_CLOEXEC)) {
   const int slots = nodes + host;
-  const std::size_t capacity = whole_pages(std::min<std::uint64_t>(8 * limit + kLeastCapacity, kAllAddresses / slots));
+  const std::size_t capacity =
+      whole_segment_pages(std::min<std::uint64_t>(8 * limit + kLeastCapacity, kAllAddresses / slots));
   const std::size_t size = front_size(slots) + slots * capacity + kSharedAddresses;
   if (descriptor_ < 0 || ftruncate(descriptor_, static_cast<off_t>(size)) != 0) throw no_memory(std::strerror(errno));
   mapped_ = front_size(slots);

@@ -17,9 +17,9 @@ struct CarryWords {
   std::string axes = "world";
   bool level = false, end = false;
 };
-using Typed = std::shared_ptr<CarryWords>;
+using SharedWords = std::shared_ptr<CarryWords>;
 
-std::optional<glm::dvec3> vector_of(const std::vector<double>& numbers) {
+std::optional<glm::dvec3> vector_if_given(const std::vector<double>& numbers) {
   if (numbers.empty()) return std::nullopt;
   return glm::dvec3(numbers[0], numbers[1], numbers[2]);
 }
@@ -32,7 +32,7 @@ void add_vector(cli::Command app, const char* name, std::vector<double>& numbers
   app.add(name, numbers, help).words(3).type("X Y Z");
 }
 
-void add_attach(cli::Command animate, const Typed& words) {
+void add_attach(cli::Command animate, const SharedWords& words) {
   const cli::Command app = animate.add_command("attach", "Attach an actor to another actor, or to a joint of it");
   app.add("ACTOR", words->actor, "The actor that is carried. Example: ball").required();
   app.add("--to", words->to, "The actor or joint that carries it. Example: --to tom/right-hand")
@@ -46,12 +46,12 @@ void add_attach(cli::Command animate, const Typed& words) {
   app.runs([words] {
     words->film.change([&](document::Json& json, const animator::Film& film) {
       animator::attach(json, film, words->actor, words->to, animator::read_frame(words->frame),
-                       {vector_of(words->place), vector_of(words->turn)});
+                       {vector_if_given(words->place), vector_if_given(words->turn)});
     });
   });
 }
 
-void add_detach(cli::Command animate, const Typed& words) {
+void add_detach(cli::Command animate, const SharedWords& words) {
   const cli::Command app = animate.add_command("detach", "Detach an actor: it stays where it is at that frame");
   app.add("ACTOR", words->actor, "The actor that is carried. Example: ball").required();
   add_frame(app, *words);
@@ -79,7 +79,7 @@ void change_camera(const CarryWords& words, const animator::Following& following
   for (const std::string& remark : remarks) words.film.remark(remark);
 }
 
-cli::Command add_camera(cli::Command animate, const Typed& words, const char* name, const char* purpose,
+cli::Command add_camera(cli::Command animate, const SharedWords& words, const char* name, const char* purpose,
                         const char* end) {
   const cli::Command app = animate.add_command(name, purpose);
   app.add("ACTOR[/JOINT]", words->to, "Example: tom/head");
@@ -88,17 +88,17 @@ cli::Command add_camera(cli::Command animate, const Typed& words, const char* na
   return app;
 }
 
-void add_look(cli::Command animate, const Typed& words) {
+void add_look(cli::Command animate, const SharedWords& words) {
   const cli::Command app =
       add_camera(animate, words, "look", "Make the camera look at an actor or a joint while it moves",
                  "End this: the camera keeps looking at the place where it looks at that frame. Example: --end");
   add_vector(app, "--offset", words->offset,
              "Vector from the joint, along the world's axes; default: the joint itself, or the middle of the actor. "
              "Example: --offset 0 0 0.2");
-  app.runs([words] { change_camera(*words, {"at", vector_of(words->offset), false, false}); });
+  app.runs([words] { change_camera(*words, {"at", vector_if_given(words->offset), false, false}); });
 }
 
-void add_follow(cli::Command animate, const Typed& words) {
+void add_follow(cli::Command animate, const SharedWords& words) {
   const cli::Command app = add_camera(animate, words, "follow", "Make the camera move with an actor or a joint",
                                       "End this: the camera stays where it is at that frame. Example: --end");
   add_vector(app, "--offset", words->offset,
@@ -107,7 +107,9 @@ void add_follow(cli::Command animate, const Typed& words) {
       .type("AXES")
       .one_of({"world", "joint"});
   app.add_flag("--level", words->level, "Keep the camera at one height, the z of the offset. Example: --level");
-  app.runs([words] { change_camera(*words, {"eye", vector_of(words->offset), words->axes == "joint", words->level}); });
+  app.runs([words] {
+    change_camera(*words, {"eye", vector_if_given(words->offset), words->axes == "joint", words->level});
+  });
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 using document::Json;
 
-constexpr const char* kWay = R"(A film from nothing:
+constexpr const char* kNewFilmExample = R"(A film from nothing:
   mars film play.json new size=640,360 --figure man
   mars film play.json add floor --model floor
   mars film play.json add ball --model ball --place 1.2 -1 0.275
@@ -300,7 +300,7 @@ cli::Command add_film(cli::Command mars, EditedFilm& film) {
   add_actors(app, words);
   add_lights(app, words);
   add_materials(app, words);
-  app.footer(kWay);  // last, or each of its commands would have it
+  app.footer(kNewFilmExample);  // last, or each of its commands would have it
   app.keeps(words);
   return app;
 }

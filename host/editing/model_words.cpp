@@ -21,7 +21,7 @@
 namespace mars::editing {
 namespace {
 
-constexpr const char* kWay = R"(A figure from nothing:
+constexpr const char* kNewFigureExample = R"(A figure from nothing:
   mars model dog.json new --shape ellipsoid --sbb -0.6 -0.2 -0.2 0.6 0.2 0.2
   mars model dog.json add leg --parent body --place 0.4 0.1 -0.1 \
       --shape capsule --sbb -0.06 -0.06 -0.5 0.06 0.06 0.06 --limits y -60 60
@@ -46,7 +46,7 @@ struct ModelWords {
 
 std::string where(const ModelWords& words) { return words.model.path().string(); }
 
-glm::dvec3 vector_of(const std::vector<double>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
+glm::dvec3 three_numbers(const std::vector<double>& numbers) { return {numbers[0], numbers[1], numbers[2]}; }
 
 std::string material_of(const ModelWords& words) { return words.change.segment.value("material", ""); }
 
@@ -142,7 +142,7 @@ void run_scale(const ModelWords& words) {
   const bool alike = words.factors.size() == 1;
   const glm::dvec3 factors = words.factors.empty() ? glm::dvec3(1)
                              : alike               ? glm::dvec3(words.factors[0])
-                                                   : vector_of(words.factors);
+                                                   : three_numbers(words.factors);
   for (const std::string& pattern : words.joints) proportions.joints.push_back({pattern, false, factors});
   for (const std::string& pattern : words.branches) proportions.joints.push_back({pattern, true, factors});
   if (proportions.joints.empty()) proportions.scale = factors;
@@ -164,7 +164,7 @@ void run_mirror(const ModelWords& words) {
 
 void run_point(const ModelWords& words) {
   std::string own;
-  const modeler::ControlPoint point{words.patch, {words.at[0], words.at[1]}, vector_of(words.to)};
+  const modeler::ControlPoint point{words.patch, {words.at[0], words.at[1]}, three_numbers(words.to)};
   words.model.change([&](document::Json& json, const modeler::Model& model) {
     own = modeler::set_point(json, model, words.joint, point);
   });
@@ -321,7 +321,7 @@ cli::Command add_model(cli::Command mars, EditedModel& model) {
     verb.add(command, *words);
     command.runs([words, run = verb.run] { run(*words); });
   }
-  app.footer(kWay);  // last, or each of its commands would have it
+  app.footer(kNewFigureExample);  // last, or each of its commands would have it
   return app;
 }
 

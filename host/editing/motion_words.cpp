@@ -14,7 +14,7 @@ namespace mars::editing {
 namespace {
 
 // What a person typed for one action.
-struct Typed {
+struct ActionWords {
   std::string actor;
   std::vector<std::vector<std::string>> values;  // one a parameter
   std::uint32_t at = 0;
@@ -39,7 +39,8 @@ void require_all(const motion::Action& action, const motion::Parameter& paramete
                 std::string(action.name), "write " + name + " " + std::string(parameter.example));
 }
 
-void run_action(EditedFilm& film, const motion::Action& action, const Typed& typed, std::optional<std::uint32_t> at) {
+void run_action(EditedFilm& film, const motion::Action& action, const ActionWords& typed,
+                std::optional<std::uint32_t> at) {
   motion::Arguments::Values values;
   for (std::size_t i = 0; i < typed.values.size(); ++i) {
     require_all(action, action.parameters[i], typed.values[i]);
@@ -57,7 +58,7 @@ void run_action(EditedFilm& film, const motion::Action& action, const Typed& typ
              (done.report.empty() ? "" : ": " + done.report) + (note.empty() ? "" : "; " + note) + "\n");
 }
 
-void add_parameters(cli::Command command, const motion::Action& action, Typed& typed) {
+void add_parameters(cli::Command command, const motion::Action& action, ActionWords& typed) {
   typed.values.resize(action.parameters.size());
   for (std::size_t i = 0; i < action.parameters.size(); ++i) {
     const motion::Parameter& parameter = action.parameters[i];
@@ -72,7 +73,7 @@ void add_parameters(cli::Command command, const motion::Action& action, Typed& t
 
 void add_action(cli::Command animate, EditedFilm& film, const motion::Action& action) {
   const cli::Command command = animate.add_command(std::string(action.name), std::string(action.purpose));
-  const auto typed = std::make_shared<Typed>();
+  const auto typed = std::make_shared<ActionWords>();
   command.add("ACTOR", typed->actor, "The actor. Example: anna").required();
   add_parameters(command, action, *typed);
   const cli::Option at =

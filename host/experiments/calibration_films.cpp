@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 namespace mars::experiments {
 namespace {
@@ -103,9 +104,9 @@ json mesh(int side, bool has_bones) {
       const int at = i * (side + 1) + j;
       faces.push_back({at, at + side + 1, at + side + 2, at + 1});
     }
-  json mesh = {{"vertices", vertices}, {"faces", faces}, {"crease", 180}};
-  if (has_bones) mesh["bones"] = bones;
-  return {{"mesh", mesh}};
+  json mesh = {{"vertices", std::move(vertices)}, {"faces", std::move(faces)}, {"crease", 180}};
+  if (has_bones) mesh["bones"] = std::move(bones);
+  return {{"mesh", std::move(mesh)}};
 }
 
 // Many patches.
@@ -126,8 +127,12 @@ json sheet(bool has_bones) {
   return {{"bspline", sheet}};
 }
 
-json own_shapes(bool has_bones) {
-  return {{"hills", mesh(48, has_bones)}, {"stone", mesh(3, has_bones)}, {"sheet", sheet(has_bones)}};
+// Null: the library has the shape.
+json own_shape(std::string_view name, bool has_bones) {
+  if (name == "hills") return mesh(48, has_bones);
+  if (name == "stone") return mesh(3, has_bones);
+  if (name == "sheet") return sheet(has_bones);
+  return nullptr;
 }
 
 json lights(const Bodies& bodies) {
@@ -176,8 +181,8 @@ json model(const Bodies& bodies, const std::string& shape, const std::string& re
   }
   json model = {{"joints", {{{"name", "body"}, {"segment", segment}}}}};
   model["joints"].insert(model["joints"].end(), bones.begin(), bones.end());
-  const json shapes = own_shapes(bodies.blend != nullptr);
-  if (shapes.contains(shape)) model["shapes"] = {{shape, shapes[shape]}};
+  json own = own_shape(shape, bodies.blend != nullptr);
+  if (!own.is_null()) model["shapes"] = {{shape, std::move(own)}};
   model["materials"]["skin"] = {
       {"color", {0.7, 0.5, 0.3}}, {"reflection", reflection}, {"interpolation", bodies.interpolation}};
   return model;
@@ -197,22 +202,18 @@ json bodies_of(const Bodies& bodies) {
   return all;
 }
 
-json models(const Bodies& bodies) {
-  json all = bodies_of(bodies);
-  if (bodies.casting > 0) all["wall"] = wall();
-  return all;
-}
-
 std::string film_text(const Bodies& bodies) {
   const json ambient = {{"sky", {0.8, 0.9, 1}}, {"ground", {0.5, 0.45, 0.4}}};
-  const json all_models = models(bodies);
+  json models = bodies_of(bodies);
+  json all_actors = actors(bodies, models.size());
+  if (bodies.casting > 0) models["wall"] = wall();
   return json({{"frames", 8},
                {"ambient", ambient},
                {"dice", bodies.dice == 0 ? json("adaptive") : json(bodies.dice)},
                {"camera", {{"eye", {0, -14, 4}}, {"at", {0, 0, 0}}, {"fov", 34}}},
                {"lights", lights(bodies)},
-               {"models", all_models},
-               {"actors", actors(bodies, bodies_of(bodies).size())}})
+               {"models", std::move(models)},
+               {"actors", std::move(all_actors)}})
       .dump(1);
 }
 

@@ -9,8 +9,8 @@ namespace mars::preview {
 namespace {
 
 constexpr std::array<As, 4> kAll{As::stick, As::vertices, As::prisms, As::surface};
-constexpr double kStep = 10;    // degrees, of an arrow key
-constexpr double kZoom = 1.15;  // of a key
+constexpr double kOrbitStep = 10;  // degrees, of an arrow key
+constexpr double kZoom = 1.15;     // of a key
 
 const char* name_of(const std::optional<As>& as) {
   if (!as) return "all four";
@@ -124,10 +124,10 @@ bool FilmPictures::look_from(From from) {
 
 bool FilmPictures::handle_key(const KeyPress& key, std::uint32_t frame) {
   switch (key.special) {
-    case Special::left: return turn(-kStep, 0, frame);
-    case Special::right: return turn(kStep, 0, frame);
-    case Special::up: return turn(0, kStep, frame);
-    case Special::down: return turn(0, -kStep, frame);
+    case Special::left: return turn(-kOrbitStep, 0, frame);
+    case Special::right: return turn(kOrbitStep, 0, frame);
+    case Special::up: return turn(0, kOrbitStep, frame);
+    case Special::down: return turn(0, -kOrbitStep, frame);
     default: break;
   }
   switch (key.character) {

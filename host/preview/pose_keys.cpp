@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kCharacters = "\t\rioxyzXYZ0du";
 constexpr std::string_view kCompiled =
     "a .mars film has no joints to pose: preview the film file that it was made from";
-constexpr double kStep = 5, kFineStep = 1;  // degrees
+constexpr double kTurnStep = 5, kFineTurnStep = 1;  // degrees
 
 // "x 10 (-40..40)" of each axis about which the joint turns.
 std::string angles_of(const modeler::Joint& joint, const glm::dvec3& pose) {
@@ -84,7 +84,7 @@ std::string PoseKeys::done_by(const KeyPress& key, std::uint32_t frame) {
     return fine_ ? "steps of 1 degree" : "steps of 5 degrees";
   }
   if (!selected_) return "Tab selects a joint";
-  const double step = fine_ ? kFineStep : kStep;
+  const double step = fine_ ? kFineTurnStep : kTurnStep;
   switch (key.character) {
     case 'o': selected_ = order_->above(*selected_); return "";
     case 'i': selected_ = order_->below(*selected_); return "";

@@ -15,7 +15,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the film block is little-endian and read in place");
 
-constexpr std::array<char, 8> kMagic = {'M', 'A', 'R', 'S', 'F', 'I', 'L', 'M'};
+constexpr std::array<char, 8> kFilmMagic = {'M', 'A', 'R', 'S', 'F', 'I', 'L', 'M'};
 constexpr std::size_t kAlignment = 64;
 constexpr std::size_t kSlack = kMeshSlack * sizeof(std::array<float, 3>);  // bytes behind every section
 constexpr double kLargest = 1e12;  // of any number in a film: squares and products stay far inside a float
@@ -63,7 +63,7 @@ Header read_header(std::span<const std::byte> block, const std::string& where) {
   Header header;
   require(block.size() >= sizeof header + kSlack, where, "it is too short");
   std::memcpy(&header, block.data(), sizeof header);
-  require(header.magic == kMagic, where, "it does not begin as one");
+  require(header.magic == kFilmMagic, where, "it does not begin as one");
   require(header.version == kFilmVersion, where, "it has another version");
   require(header.sections == kSections, where, "it has another number of sections");
   return header;
@@ -203,7 +203,7 @@ void pack_around(const FilmData& film, std::size_t matrices,
     visit(kMoving, film.moving);
     visit(kNames, film.names);
   };
-  Header header{kMagic, kFilmVersion, kSections, {}};
+  Header header{kFilmMagic, kFilmVersion, kSections, {}};
   header.place[kMatrices] = {kMatricesOffset, matrices};
   std::size_t end = kMatricesOffset + matrices * sizeof(Matrix);
   each_section([&](Section number, const auto& items) {

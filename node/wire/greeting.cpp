@@ -10,7 +10,7 @@
 namespace mars::wire {
 namespace {
 
-constexpr std::array<char, 4> kMagic{'M', 'A', 'R', 'S'};
+constexpr std::array<char, 4> kStampMagic{'M', 'A', 'R', 'S'};
 constexpr std::array<std::uint8_t, 3> kRelease{MARS_RELEASE};
 
 // FNV-1a.
@@ -34,10 +34,11 @@ std::string version_of(const WireStamp& stamp) {
 
 }  // namespace
 
-WireStamp own_stamp() { return {kMagic, kByteOrder, kWireVersion, kRelease, kSizes}; }
+WireStamp own_stamp() { return {kStampMagic, kByteOrder, kWireVersion, kRelease, kSizes}; }
 
 bool is_stamped(std::span<const std::byte> message) {
-  return message.size() >= sizeof(WireStamp) && std::memcmp(message.data(), kMagic.data(), kMagic.size()) == 0;
+  return message.size() >= sizeof(WireStamp) &&
+         std::memcmp(message.data(), kStampMagic.data(), kStampMagic.size()) == 0;
 }
 
 void check_stamp(std::span<const std::byte> message, const std::string& sender, const std::string& receiver) {

@@ -13,7 +13,8 @@ from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, main,
 
 TESTBED = SOURCES / "cluster/testbed/testbed.sh"
 HOSTS = ["n1", "n2", "n3", "n4"]
-CLUSTER = dict(ENVIRONMENT, TESTBED=f"test-{os.getpid()}", PATH=f"{PROGRAMS}:{os.environ['PATH']}")
+CLUSTER = dict(ENVIRONMENT, TESTBED=f"test-{os.getpid()}", PATH=f"{PROGRAMS}:{os.environ['PATH']}",
+               TMPDIR="/tmp")  # of which every host has its own
 CANNOT = ["needs root", "not installed", "cannot make namespaces"]
 
 

@@ -30,16 +30,22 @@ def corpus_of(target):
     return HERE / "corpus" / target
 
 
-def libfuzzer_words(program, found, work, args):
-    words = [program, f"-artifact_prefix={found}-", f"-timeout={LONGEST_INPUT}", f"-rss_limit_mb={MOST_MEMORY}",
-             "-print_final_stats=1", f"-seed={args.seed}", "-verbosity=1"]
+def targets_of(build):
+    if has_libfuzzer(build):
+        return sorted(program.name for program in (build / "bin/fuzz").iterdir())
+    return subprocess.run([build / "bin/fuzz-targets"], check=True, capture_output=True, text=True).stdout.split()
+
+
+def libfuzzer_words(build, target, found, work, args):
+    words = [build / "bin/fuzz" / target, f"-artifact_prefix={found}-", f"-timeout={LONGEST_INPUT}",
+             f"-rss_limit_mb={MOST_MEMORY}", "-print_final_stats=1", f"-seed={args.seed}", "-verbosity=1"]
     words += [f"-runs={args.runs}"] if args.runs else [f"-max_total_time={args.seconds}"]
-    return words + [work, corpus_of(program.name)]
+    return words + [work, corpus_of(target)]
 
 
-def plain_words(program, found, args):
+def plain_words(build, target, found, args):
     limit = ["--runs", str(args.runs)] if args.runs else ["--seconds", str(args.seconds)]
-    return [program, *limit, "--seed", str(args.seed), "--crash", found, corpus_of(program.name)]
+    return [build / "bin/fuzz-targets", target, *limit, "--seed", str(args.seed), "--crash", found, corpus_of(target)]
 
 
 def executions_in(text):
@@ -47,27 +53,27 @@ def executions_in(text):
     return int(next(filter(None, found[-1]))) if found else 0
 
 
-def run_target(build, program, args):
+def run_target(build, target, args):
     """Whether nothing was found."""
-    work = build / "fuzz" / program.name
+    work = build / "fuzz" / target
     work.mkdir(parents=True, exist_ok=True)
-    found = build / "fuzz" / f"found-{program.name}"
+    found = build / "fuzz" / f"found-{target}"
     libfuzzer = has_libfuzzer(build)
-    words = libfuzzer_words(program, found, work, args) if libfuzzer else plain_words(program, found, args)
+    words = libfuzzer_words(build, target, found, work, args) if libfuzzer else plain_words(build, target, found, args)
     begin = time.monotonic()
     done = subprocess.run(words, capture_output=True, errors="replace")
     seconds = time.monotonic() - begin
     executions = executions_in(done.stdout + done.stderr)
-    print(f"{program.name:14} {executions:10} executions {executions / seconds:10.0f} a second"
+    print(f"{target:14} {executions:10} executions {executions / seconds:10.0f} a second"
           f"   {'' if done.returncode == 0 else 'FOUND'}", flush=True)
     if done.returncode != 0:
         print(done.stderr[-3000:], file=sys.stderr, flush=True)
     return done.returncode == 0
 
 
-def keep(build, program):
-    work = build / "fuzz" / program.name
-    words = [program, "-merge=1", "-max_len=4096", corpus_of(program.name), work]
+def keep(build, target):
+    work = build / "fuzz" / target
+    words = [build / "bin/fuzz" / target, "-merge=1", "-max_len=4096", corpus_of(target), work]
     subprocess.run(words, check=True, capture_output=True)
 
 
@@ -80,14 +86,15 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", action="store_true")
     args = parser.parse_intermixed_args()
-    programs = sorted(p for p in (args.build / "bin/fuzz").iterdir() if p.name in args.targets or not args.targets)
-    if not programs:
-        parser.error(f"there is no such target in {args.build}/bin/fuzz")
+    known = targets_of(args.build)
+    if unknown := set(args.targets) - set(known):
+        parser.error(f"{args.build} has no target {', '.join(sorted(unknown))}")
+    targets = args.targets or known
     if args.keep:
-        for program in programs:
-            keep(args.build, program)
+        for target in targets:
+            keep(args.build, target)
         return 0
-    return 0 if all([run_target(args.build, program, args) for program in programs]) else 1
+    return 0 if all([run_target(args.build, target, args) for target in targets]) else 1
 
 
 if __name__ == "__main__":

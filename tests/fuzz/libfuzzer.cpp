@@ -1,4 +1,4 @@
-// Where clang is there: libFuzzer gives the target inputs, and looks for those that reach further.
+// Where clang is there: libFuzzer gives the program's one target inputs, and looks for those that reach further.
 #include <algorithm>
 #include <cstring>
 
@@ -8,6 +8,13 @@
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t most);
 
 namespace {
+
+const mars::fuzz::Target& own_target() {
+  static const mars::fuzz::Target& target = *mars::fuzz::all_targets().front();
+  return target;
+}
+
+bool takes_text() { return own_target().form == mars::fuzz::Form::text; }
 
 std::string_view text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
@@ -22,13 +29,13 @@ std::size_t put(const std::string& text, std::uint8_t* to, std::size_t most) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  mars::fuzz::run(text_of(data, size));
+  mars::fuzz::run(own_target(), text_of(data, size));
   return 0;
 }
 
 extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t most, unsigned seed) {
   mars::fuzz::Mutation mutation(seed);
-  if (mars::fuzz::kForm == mars::fuzz::Form::bytes || mutation.below(4) == 0) return LLVMFuzzerMutate(data, size, most);
+  if (!takes_text() || mutation.below(4) == 0) return LLVMFuzzerMutate(data, size, most);
   return put(mutation.of_text(text_of(data, size), text_of(data, size)), data, most);
 }
 
@@ -37,6 +44,5 @@ extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* data1, std:
                                                  std::size_t most, unsigned seed) {
   mars::fuzz::Mutation mutation(seed);
   const auto one = text_of(data1, size1), other = text_of(data2, size2);
-  const bool text = mars::fuzz::kForm == mars::fuzz::Form::text;
-  return put(text ? mutation.of_text(one, other) : mutation.of_bytes(one, other), out, most);
+  return put(takes_text() ? mutation.of_text(one, other) : mutation.of_bytes(one, other), out, most);
 }

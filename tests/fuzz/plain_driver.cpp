@@ -1,10 +1,14 @@
-// Where libFuzzer is not: replays a target's corpus, then gives it inputs changed at random from those, always the same
-// with one seed. A finding leaves its input in a file, which replays it: by default below the build's folder.
-//   TARGET [--seconds N] [--runs N] [--seed N] [--crash FILE] [--show] [CORPUS | INPUT] ...
+// Where libFuzzer is not: one program of all targets. It gives a target its corpus, then inputs changed at random from
+// those, always the same with one seed. A finding leaves its input in a file, which replays it: by default below the
+// build's folder.
+//   fuzz-targets                               lists the targets
+//   fuzz-targets TARGET [--seconds N] [--runs N] [--seed N] [--crash FILE] [--show] [CORPUS | INPUT] ...
+//   fuzz-targets --replay FOLDER [TARGET ...]  gives all targets, or these, their corpora, FOLDER/TARGET
 // --show prints why inputs of the corpus are refused.
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +19,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/fuzz/mutation.h"
@@ -30,29 +37,35 @@ using Clock = std::chrono::steady_clock;
 
 constexpr long kLongestRun = 60;  // seconds of processor time of some inputs
 
+struct Input {
+  std::string name;
+  std::string text;
+};
+
 struct Wanted {
+  explicit Wanted(const Target& target) : target(&target), crash(MARS_FUZZ_FINDINGS "/crash-" + target.name) {}
+
+  const Target* target;
   double seconds = 0;
   std::uint64_t runs = 0;
   std::uint64_t seed = 1;
   std::string crash;  // where a finding goes
   bool show = false;
-  struct Input {
-    std::string name;
-    std::string text;
-  };
-  std::vector<Input> inputs;  // the corpus
+  std::vector<Input> corpus;
 };
 
-const std::string* current = nullptr;  // the input that is being taken
-const char* crash_file = "";
+const Wanted* running = nullptr;
+const Input* current = nullptr;  // which is being taken
 
 // As signal handlers must: by system calls alone.
 void keep_input() {
   if (current == nullptr) return;
-  const int file = open(crash_file, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-  const bool kept = write(file, current->data(), current->size()) == static_cast<ssize_t>(current->size());
-  const char* const words = kept ? "\nthe input is in " : "\nthe input cannot be written to ";
-  for (const char* text : {words, crash_file, "\n"})
+  const char* const crash = running->crash.c_str();
+  const std::string& input = current->text;
+  const int file = open(crash, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  const bool kept = write(file, input.data(), input.size()) == static_cast<ssize_t>(input.size());
+  const char* const words = kept ? ": the input is in " : ": the input cannot be written to ";
+  for (const char* text : {"\n", running->target->name.c_str(), ", ", current->name.c_str(), words, crash, "\n"})
     if (write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
   current = nullptr;
 }
@@ -75,9 +88,9 @@ void limit_time() {
   setitimer(ITIMER_PROF, &limit, nullptr);
 }
 
-std::string run_one(const std::string& input) {
+std::string run_one(const Input& input) {
   current = &input;
-  const std::string refusal = run(input);
+  const std::string refusal = run(*running->target, input.text);
   current = nullptr;
   return refusal;
 }
@@ -87,7 +100,7 @@ std::string read(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-void add_corpus(const fs::path& place, std::vector<Wanted::Input>& inputs) {
+void add_corpus(const fs::path& place, std::vector<Input>& inputs) {
   if (!fs::is_directory(place)) return inputs.push_back({place.filename(), read(place)});
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(place)) files.push_back(entry.path());
@@ -95,12 +108,11 @@ void add_corpus(const fs::path& place, std::vector<Wanted::Input>& inputs) {
   for (const fs::path& file : files) inputs.push_back({file.filename(), read(file)});
 }
 
-Wanted read_words(int argc, char** argv) {
-  Wanted wanted;
-  wanted.crash = MARS_FUZZ_FINDINGS "/crash-" + fs::path(argv[0]).filename().string();
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto value = [&] { return i + 1 < argc ? argv[++i] : "0"; };
+Wanted read_words(const Target& target, std::span<char*> words) {
+  Wanted wanted(target);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string word = words[i];
+    const auto value = [&] { return i + 1 < words.size() ? words[++i] : "0"; };
     if (word == "--seconds")
       wanted.seconds = std::atof(value());
     else if (word == "--runs")
@@ -112,7 +124,7 @@ Wanted read_words(int argc, char** argv) {
     else if (word == "--crash")
       wanted.crash = value();
     else
-      add_corpus(word, wanted.inputs);
+      add_corpus(word, wanted.corpus);
   }
   return wanted;
 }
@@ -123,30 +135,31 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 // one input that the corpus has where it says something.
 void mutate(const Wanted& wanted, Clock::time_point begin) {
   Mutation mutation(wanted.seed);
-  const auto some_input = [&]() -> const std::string& {
-    return wanted.inputs[mutation.below(wanted.inputs.size())].text;
+  const bool of_text = wanted.target->form == Form::text;
+  const auto some_text = [&]() -> const std::string& {
+    return wanted.corpus[mutation.below(wanted.corpus.size())].text;
   };
-  std::string input = some_input();
+  Input input{"changed at random", some_text()};
+  std::string& text = input.text;
   for (std::uint64_t i = 0; i < wanted.runs || wanted.runs == 0; ++i) {
     if (i % 16 == 0) limit_time();
     if (wanted.seconds > 0 && i % 16 == 0 && seconds_since(begin) > wanted.seconds) break;
-    if (mutation.below(8) > 0) input = some_input();  // else changed further
-    do input = kForm == Form::text ? mutation.of_text(input, some_input()) : mutation.of_bytes(input, some_input());
-    while (input.empty());
+    if (mutation.below(8) > 0) text = some_text();  // else changed further
+    do text = of_text ? mutation.of_text(text, some_text()) : mutation.of_bytes(text, some_text());
+    while (text.empty());
     run_one(input);
   }
 }
 
-int drive(int argc, char** argv) {
-  Wanted wanted = read_words(argc, argv);
-  crash_file = wanted.crash.c_str();
+int give_inputs(Wanted wanted) {
+  running = &wanted;
   catch_ends();
   const auto begin = Clock::now();
-  if (wanted.inputs.empty()) wanted.inputs.push_back({"nothing", ""});
-  for (const auto& [name, text] : wanted.inputs) {
+  if (wanted.corpus.empty()) wanted.corpus.push_back({"nothing", ""});
+  for (const Input& input : wanted.corpus) {
     limit_time();
-    const std::string refusal = run_one(text);
-    if (wanted.show) std::printf("%s: %s\n", name.c_str(), refusal.empty() ? "taken" : refusal.c_str());
+    const std::string refusal = run_one(input);
+    if (wanted.show) std::printf("%s: %s\n", input.name.c_str(), refusal.empty() ? "taken" : refusal.c_str());
   }
   if (wanted.seconds > 0 || wanted.runs > 0) mutate(wanted, begin);
   const auto all = static_cast<double>(counts().taken + counts().refused);
@@ -155,7 +168,61 @@ int drive(int argc, char** argv) {
   return 0;
 }
 
+// Whether nothing was found. The target has a process of its own, which a finding ends.
+bool replay_apart(const Target& target, const fs::path& corpus) {
+  std::printf("%s: ", target.name.c_str());
+  std::fflush(stdout);
+  const pid_t process = fork();
+  if (process == 0) {
+    Wanted wanted(target);
+    add_corpus(corpus, wanted.corpus);
+    std::exit(give_inputs(std::move(wanted)));
+  }
+  int status = 1;
+  return process > 0 && waitpid(process, &status, 0) == process && status == 0;
+}
+
+int replay_all(const fs::path& folder, std::span<const Target* const> targets) {
+  std::string found;
+  for (const Target* target : targets) {
+    const fs::path corpus = folder / target->name;
+    const bool has_corpus = fs::is_directory(corpus) && !fs::is_empty(corpus);
+    if (!has_corpus) std::fprintf(stderr, "there is no corpus %s\n", corpus.c_str());
+    if (!has_corpus || !replay_apart(*target, corpus)) found += " " + target->name;
+  }
+  if (!found.empty()) std::fprintf(stderr, "targets that failed:%s\n", found.c_str());
+  return found.empty() ? 0 : 1;
+}
+
+// Null, with a word, where no target has the name.
+const Target* find_target(std::string_view name) {
+  const std::vector<const Target*> targets = all_targets();
+  const auto found = std::ranges::find(targets, name, &Target::name);
+  if (found != targets.end()) return *found;
+  std::fprintf(stderr, "no target is called %.*s\n", static_cast<int>(name.size()), name.data());
+  return nullptr;
+}
+
+int replay(std::span<char*> words) {
+  std::vector<const Target*> targets;
+  for (const char* name : words.subspan(1)) targets.push_back(find_target(name));
+  if (std::ranges::count(targets, nullptr) > 0) return 2;
+  return replay_all(words.front(), targets.empty() ? all_targets() : targets);
+}
+
+int drive(std::span<char*> words) {
+  if (words.empty()) {
+    for (const Target* target : all_targets()) std::puts(target->name.c_str());
+    return 0;
+  }
+  if (words.front() == std::string_view("--replay") && words.size() > 1) return replay(words.subspan(1));
+  const Target* const target = find_target(words.front());
+  return target == nullptr ? 2 : give_inputs(read_words(*target, words.subspan(1)));
+}
+
 }  // namespace
 }  // namespace mars::fuzz
 
-int main(int argc, char** argv) { return mars::fuzz::drive(argc, argv); }
+int main(int argc, char** argv) {
+  return mars::fuzz::drive(std::span(argv, static_cast<std::size_t>(argc)).subspan(1));
+}

@@ -6,21 +6,18 @@
 #include <string>
 #include <string_view>
 
+#include "tests/temporary_folder.h"
+
 namespace mars::fuzz {
 
 class Scratch {
  public:
-  Scratch();
-  ~Scratch();
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-
-  std::filesystem::path path(const std::string& name) const { return path_ / name; }
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   // Writes the file, and returns its path.
   std::filesystem::path file(const std::string& name, std::string_view text) const;
 
  private:
-  std::filesystem::path path_;
+  const test::TemporaryFolder folder_{test::memory_folder()};
 };
 
 // The process's own.

@@ -39,6 +39,13 @@ constexpr const char* kFilm = R"({"frames": 9, "size": [64, 48], "camera": {"eye
   "lights": [{"direction": [1, 0, 1]}, {"place": [1, 2, 3], "at": [0, 0, 0], "cone": [10, 30], "reach": 4}],
   "models": {"pip": "pip.json"}, "actors": [{"name": "pip", "model": "pip", "keys": [{"frame": 4, "place": [1, 0, 0]}]}]})";
 
+Messages joined(Messages messages, const Messages& more) {
+  messages.insert(messages.end(), more.begin(), more.end());
+  return messages;
+}
+
+}  // namespace
+
 // What a serving host would do with what it is asked: nodes check it, and draw one pixel.
 class CheckingLink final : public studio::RendererLink {
  public:
@@ -169,13 +176,6 @@ class Outboxes final : public web::Pages {
   std::vector<std::pair<PageNumber, Json>> unpainted_;
   std::string refusal_;
 };
-
-Messages joined(Messages messages, const Messages& more) {
-  messages.insert(messages.end(), more.begin(), more.end());
-  return messages;
-}
-
-}  // namespace
 
 class StudioPages::Open {
  public:

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <exception>
 #include <typeinfo>
+#include <utility>
 
 #include "hal/failure/failure.h"
 
@@ -27,10 +28,27 @@ bool can_be_shown(std::string_view message) {
   return !message.empty() && !obeyed && message.size() <= kLongestMessage;
 }
 
+// Filled before main, in any order.
+std::vector<const Target*>& registered_targets() {
+  static std::vector<const Target*> targets;
+  return targets;
+}
+
 }  // namespace
 
-std::string run(std::string_view input) try {
-  take(input);
+Target::Target(std::string name, Form form, void (*take)(std::string_view input))
+    : name(std::move(name)), form(form), take(take) {
+  registered_targets().push_back(this);
+}
+
+std::vector<const Target*> all_targets() {
+  std::vector<const Target*> targets = registered_targets();
+  std::ranges::sort(targets, {}, &Target::name);
+  return targets;
+}
+
+std::string run(const Target& target, std::string_view input) try {
+  target.take(input);
   ++counted.taken;
   return "";
 } catch (const Failure& failure) {

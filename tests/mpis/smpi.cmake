@@ -9,8 +9,7 @@ target_sources(smpi_times PRIVATE times.cpp)
 mars_program(simulated_times simulated_times.cpp LINKS mars_nx_calls mars_hal_simulated)
 target_sources(simulated_times PRIVATE times.cpp)
 
-add_test(NAME smpi_test
-         COMMAND ${Python3_EXECUTABLE} -B ${CMAKE_CURRENT_SOURCE_DIR}/smpi_test.py
-                 ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules> $<TARGET_FILE:smpi_times>
-                 $<TARGET_FILE:simulated_times>)
-set_tests_properties(smpi_test PROPERTIES TIMEOUT 120)
+mars_put_off(smpi_rules smpi_times simulated_times)
+
+mars_add_script(smpi_test smpi_test.py ${PROJECT_SOURCE_DIR}/cluster/platforms/simulate $<TARGET_FILE:smpi_rules>
+  $<TARGET_FILE:smpi_times> $<TARGET_FILE:simulated_times>)

@@ -5,7 +5,9 @@ import ctypes
 import mmap
 import os
 import pathlib
+import random
 import select
+import signal
 import socket
 import struct
 import subprocess
@@ -16,6 +18,7 @@ from harness import wait_until
 
 SPECIAL = {"Escape": 0xff1b, "Left": 0xff51, "Right": 0xff53, "Home": 0xff50, "End": 0xff57}
 KEY_PRESS, KEY_RELEASE = 2, 3
+SOCKET = "/tmp/.X11-unix/X{}"  # of a display's number
 IGNORED = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda display, error: 0)
 
 
@@ -44,14 +47,13 @@ def x11():
 
 
 class Display:
+    """Its number is none of 0 to 9: programs over MPI, also those of other tests, ask those displays what cards they have,
+    and would end or stand still with them."""
+
     def __init__(self, folder, *options, width=800, height=600):
-        reading, writing = os.pipe()
-        self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writing), "-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder), "-ac",
-             "-noreset", "-nolisten", "tcp", *options], pass_fds=[writing], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
-        os.close(writing)
-        with open(reading) as numbers:
-            self.number = int(numbers.readline())
+        words = ["-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder), "-ac", "-noreset", "-nolisten", "tcp",
+                 *options]
+        self.number = next(number for number in random.sample(range(10, 1000), 20) if self.is_started(number, words))
         self.name = f":{self.number}"
         with open(pathlib.Path(folder) / "Xvfb_screen0", "rb") as file:
             self.memory = mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ)
@@ -61,9 +63,24 @@ class Display:
         self.library.XSetErrorHandler(IGNORED)  # Xlib's own ends the program where a window has just gone
         self.client = self.library.XOpenDisplay(self.name.encode())
 
+    def is_started(self, number, words):
+        """No, if another server has the number."""
+        reading, writing = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", f":{number}", "-displayfd", str(writing), *words], pass_fds=[writing],
+                                       stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        os.close(writing)
+        with open(reading) as said:
+            started = said.readline() != ""
+        if not started:
+            self.server.wait()
+        return started
+
     def end(self):
-        self.server.kill()
-        self.server.wait()
+        """The server, which may stand still, removes its socket, unless a test has killed the server."""
+        self.server.terminate()
+        self.server.send_signal(signal.SIGCONT)
+        if self.server.wait() == -signal.SIGKILL:
+            pathlib.Path(SOCKET.format(self.number)).unlink(missing_ok=True)
 
     def rows(self):
         """Of the screen: red, green, blue a pixel."""
@@ -126,7 +143,7 @@ class Relay:
             for ready in select.select([self.listener, *ends], [], [], 0.1)[0]:
                 if ready is self.listener:
                     client, server = self.listener.accept()[0], socket.socket(socket.AF_UNIX)
-                    server.connect(f"/tmp/.X11-unix/X{self.display.number}")
+                    server.connect(SOCKET.format(self.display.number))
                     ends[client], ends[server] = (server, True), (client, False)
                     continue
                 if ready not in ends:

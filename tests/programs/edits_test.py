@@ -21,7 +21,7 @@ class Studio:
     """A studio that has a film open, and its page."""
 
     def __init__(self, film):
-        self.process = subprocess.Popen([PROGRAMS / "mars", "studio", film.name, "--no-browser", "--nodes", "1"],
+        self.process = subprocess.Popen([PROGRAMS / "mars", "studio", film.name, "--no-browser", "--port", "0", "--nodes", "1"],
                                         cwd=film.parent, env=ENVIRONMENT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                                         text=True)
         link = next(line.split()[1] for line in self.process.stdout if line.startswith("Open "))

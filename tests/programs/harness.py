@@ -2,13 +2,16 @@
 test, and looking at what is left. Each test file is started as: FILE_test.py PROGRAMS_FOLDER SOURCES_FOLDER.
 """
 
+import atexit
 import contextlib
+import fcntl
 import json
 import os
 import pathlib
 import re
 import shutil
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -21,6 +24,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent.parent))
 from cases import SideBySide, main  # noqa: E402,F401
 
 PROGRAMS = pathlib.Path(sys.argv[1]).resolve()
+BUILD = PROGRAMS.parent
 SOURCES = pathlib.Path(sys.argv[2]).resolve()
 EXAMPLES = SOURCES / "examples"
 HAVE_MPI = (PROGRAMS / "mars-host").exists()
@@ -29,11 +33,17 @@ SANITIZED = re.search(rb"__[at]san_init", (PROGRAMS / "mars-threads").read_bytes
 SECONDS = 600 if SANITIZED else 200  # for any one program, and for anything that must come, on a busy machine too
 ENDLESS = 8000  # frames of 160 x 90: more than three nodes render while a test looks on, and too few to be predicted first
 
+# Where tests and all that they start put temporary files: programs that are killed leave some. The folder is removed when
+# the tests have ended.
+TEMPORARY = tempfile.TemporaryDirectory(prefix="mars-test-", ignore_cleanup_errors=True)
+os.environ["TMPDIR"] = tempfile.tempdir = TEMPORARY.name
+os.environ.pop("XDG_RUNTIME_DIR", None)  # which programs prefer for sockets
+
 # For a person's own mpirun line: the tests may run as root, with more ranks than cores.
 OWN_MPIRUN = ["mpirun.mpich"] if MPICH else ["mpirun", "--oversubscribe", "--bind-to", "none"]
 ENVIRONMENT = dict(
     os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-    HWLOC_COMPONENTS="-gl")  # which ends with the X server of any test beside it
+    HWLOC_COMPONENTS="-gl")  # which ends with the X server of any program beside it
 
 # What mars says of itself on a busy machine: of nodes that share their processor with others, of a disk with much to do.
 BUSY = re.compile("times as long as others for an inbetween|as fast as the others again|storage has given no answer for 10 seconds|"
@@ -134,12 +144,43 @@ def wait_until(holds, seconds, what, pause=0.02):
         time.sleep(pause)
 
 
+def install(prefix, *words):
+    """`cmake --install`, which writes its list of files into the folder that it installs from: here into a copy of the
+    build's script, for other tests and people have lists of theirs in the build's folder."""
+    with tempfile.TemporaryDirectory(prefix="mars-install-") as copy:
+        script = (BUILD / "cmake_install.cmake").read_text()
+        listed = f'file(WRITE "{BUILD}/${{CMAKE_INSTALL_MANIFEST}}"'
+        assert listed in script, "this CMake writes its list elsewhere"
+        (pathlib.Path(copy) / "cmake_install.cmake").write_text(script.replace(listed, listed.replace(str(BUILD), copy)))
+        subprocess.run(["cmake", "--install", copy, "--prefix", prefix, *words], check=True, capture_output=True)
+
+
+@atexit.register
+def remove_what_killed_jobs_left():
+    """In the memory that all programs of the machine share: folders of ours, of whose jobs none lives. The next start of
+    mars would remove them (host/shell/launch/session_folders.h)."""
+    for folder in pathlib.Path("/dev/shm").glob(f"mars.{socket.gethostname()[:32]}.??????"):
+        try:
+            lock = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
+        except OSError:
+            continue  # it is gone, or is another user's
+        with contextlib.suppress(BlockingIOError):
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            if os.fstat(lock).st_uid == os.geteuid():
+                shutil.rmtree(folder, ignore_errors=True)
+        os.close(lock)
+
+
 class ProgramTest(unittest.TestCase):
     FOLDERS = None  # where the tests' folders are made; none: where temporary files go
 
     def setUp(self):
-        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-test-", dir=self.FOLDERS))
-        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.folder = self.temporary_folder()
+
+    def temporary_folder(self):
+        """Another folder of the test alone; it is removed with all it holds."""
+        return pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(
+            prefix="mars-test-", dir=self.FOLDERS, ignore_cleanup_errors=True)))
 
     def write(self, name, content):
         """A file of this test's folder: JSON of what is no text."""

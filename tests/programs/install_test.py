@@ -16,9 +16,8 @@ import time
 import unittest
 
 import harness
-from harness import HAVE_MPI, ProgramTest, SideBySide, main, needs
+from harness import BUILD, HAVE_MPI, ProgramTest, SideBySide, main, needs
 
-BUILD = harness.PROGRAMS.parent
 STARTERS = ["mars", "mars-threads", "mars-simulated", "mars-nx"] + ["mars-host", "mars-ranks"] * HAVE_MPI  # nodes take no arguments
 
 # What bash offers for each of several lines of words, and an empty line after each.
@@ -36,9 +35,8 @@ words() {
 
 
 def setUpModule():
-    work = pathlib.Path(tempfile.mkdtemp(prefix="mars-install-"))
-    unittest.addModuleCleanup(shutil.rmtree, work)
-    subprocess.run(["cmake", "--install", BUILD, "--prefix", work / "first", "--strip"], check=True, capture_output=True)
+    work = pathlib.Path(unittest.enterModuleContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
+    harness.install(work / "first", "--strip")
     Installation.prefix = (work / "first").rename(work / "moved here")
     harness.PROGRAMS = Installation.prefix / "bin"
 
@@ -132,7 +130,7 @@ class Installed(SideBySide, Installation):
         whole = sorted(path.relative_to(self.prefix) for path in self.prefix.rglob("*") if not path.is_dir())
         parts = []
         for part in ["mars", "mars-nx", "mars-nx-dev", "mars-window"]:
-            self.succeed("cmake", "--install", BUILD, "--component", part, "--prefix", self.folder / part)
+            harness.install(self.folder / part, "--component", part)
             parts += [path.relative_to(self.folder / part) for path in (self.folder / part).rglob("*")
                       if not path.is_dir()]
         self.assertEqual(sorted(parts), whole)

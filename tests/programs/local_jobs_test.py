@@ -93,10 +93,11 @@ class LocalJobs(SideBySide, ProgramTest):
         process = self.start()
         everyone = family(process.pid)
         left = self.folders_of(everyone)
-        kill([process.pid, *everyone])
-        wait_until(lambda: not living(everyone), SECONDS, "they live on")
         self.assertEqual([path.parent for path in left], [SHARED, self.temporary])
         self.assertTrue(all(any(path.iterdir()) for path in left), left)
+        kill([process.pid, *everyone])
+        wait_until(lambda: not living(everyone), SECONDS, "they live on")
+        self.assertTrue(any(left[1].iterdir()), left)  # the other may be gone: any start on this machine removes it
         self.render_a_frame()
         self.assertEqual([path for path in left if path.exists()], [])
         self.assertEqual(list(self.temporary.iterdir()), [])

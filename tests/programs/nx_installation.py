@@ -3,8 +3,6 @@ what the installed headers declare."""
 
 import pathlib
 import re
-import shutil
-import subprocess
 import tempfile
 import unittest
 
@@ -17,11 +15,9 @@ DECLARATION = re.compile(r"^(?!typedef)[a-z][a-z_ ]*[ *]+(\w+)\(", re.M)
 class NxInstallation(ProgramTest):
     @classmethod
     def setUpClass(cls):
-        work = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-"))
-        cls.addClassCleanup(shutil.rmtree, work)
+        work = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
         for part in ["mars-nx", "mars-nx-dev"]:
-            subprocess.run(["cmake", "--install", harness.PROGRAMS.parent, "--component", part,
-                            "--prefix", work / "first", "--strip"], check=True, capture_output=True)
+            harness.install(work / "first", "--component", part, "--strip")
         cls.prefix = (work / "first").rename(work / "moved")
         if harness.SANITIZED:
             raise unittest.SkipTest("a sanitized library is for programs that are sanitized too")
@@ -42,7 +38,7 @@ class NxInstallation(ProgramTest):
 
     def build_by_cmake(self, project):
         """With the generator that MARS was built with: no other need be installed."""
-        cache = (harness.PROGRAMS.parent / "CMakeCache.txt").read_text()
+        cache = (harness.BUILD / "CMakeCache.txt").read_text()
         self.write("CMakeLists.txt", project)
         self.succeed("cmake", "-G", re.search(r"^CMAKE_GENERATOR:INTERNAL=(.*)$", cache, re.M)[1], "-S", ".", "-B", "build",
                      f"-DCMAKE_PREFIX_PATH={self.prefix}")

@@ -3,7 +3,6 @@ how they end, in order and otherwise. Each has a main function that knows nothin
 
 import os
 import pathlib
-import shutil
 import signal
 import subprocess
 import tempfile
@@ -216,8 +215,7 @@ def compile_program(folder, name, text):
 
 
 def setUpModule():
-    NxRun.programs = pathlib.Path(tempfile.mkdtemp(prefix="mars-nx-run-"))
-    unittest.addModuleCleanup(shutil.rmtree, NxRun.programs)
+    NxRun.programs = pathlib.Path(unittest.enterModuleContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
     for name, text in [("node", NODE), ("host", HOST), ("nothing", NOTHING), ("loop", LOOP), ("begun", BEGUN), ("busy", BUSY),
                        ("fork", FORK), ("echo", ECHO), ("talk", TALK), ("square", SQUARE), ("storm", STORM)]:
         compile_program(NxRun.programs, name, text)
@@ -227,13 +225,6 @@ class NxRun(SideBySide, ProgramTest):
     def setUp(self):
         super().setUp()
         self.folder = self.programs
-        before = self.left()
-        self.addCleanup(lambda: self.assertEqual(self.left() - before, set()))
-
-    @staticmethod
-    def left():
-        """Shared memory of NX programs; folders of renderings, such as other tests', have random names."""
-        return {name for name in os.listdir("/dev/shm") if "nx" in name and not name.startswith("mars.")}
 
     def run_nx(self, *words, **more):
         return self.run_program("mars-nx", "run", *words, **more)
@@ -260,11 +251,16 @@ class NxRun(SideBySide, ProgramTest):
         return process
 
     def start_sleeping(self, count):
-        """mars-nx with a host and nodes that sleep; all of its processes."""
+        """mars-nx with a host and nodes that sleep; all of its processes. The memory that they share has no name, so
+        nothing of the memory is left, however they end."""
         process = self.start("--nodes", count, "./host", "./node", "sleep")
         for _ in range(count):
             self.assertEqual(process.stdout.readline(), "sleeping\n")
-        return process, family(process.pid)
+        processes = family(process.pid)
+        mapped = "".join(pathlib.Path(f"/proc/{each}/maps").read_text() for each in processes)
+        self.assertIn("memfd:mars-nx", mapped)
+        self.assertNotIn("/dev/shm/", mapped)
+        return process, processes
 
     def pid_of(self, processes, program):
         return next(pid for pid, (_, _, file) in processes.items() if pathlib.Path(file).name == program)

@@ -45,12 +45,12 @@ class Mounts:
 
 
 def can_mount():
-    folder, mounts = tempfile.mkdtemp(), Mounts()
-    try:
-        return mounts.runs("mount", "-t", "tmpfs", "none", folder)
-    finally:
-        mounts.end()
-        os.rmdir(folder)
+    with tempfile.TemporaryDirectory(prefix="mars-test-") as folder:
+        mounts = Mounts()
+        try:
+            return mounts.runs("mount", "-t", "tmpfs", "none", folder)
+        finally:
+            mounts.end()
 
 
 needs_mounts = unittest.skipUnless(can_mount(), "may not mount a small disk")

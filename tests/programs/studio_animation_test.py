@@ -51,6 +51,7 @@ class AnimationTest(StudioInBrowser):
     # ---- where things are
 
     def box_of(self, selector):
+        self.browser.settle()
         return self.browser.run("const at = document.querySelector(arguments[0]).getBoundingClientRect(); return [at.x, at.y, at.width, at.height]", selector)
 
     def is_seen(self, selector):
@@ -63,14 +64,6 @@ class AnimationTest(StudioInBrowser):
         left, _, width, _ = self.box_of(".ruler")
         _, top, _, height = self.box_of(f"[data-row='{row}']")
         return left + MARGIN + frame * (width - 2 * MARGIN) / (FILM["frames"] - 1), top + height / 2
-
-    def open_tab(self, name):
-        self.browser.run("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === arguments[0]).click()", name)
-
-    def choose_entry(self, text):
-        entry = f"[...document.querySelectorAll('.menu button')].find((each) => each.textContent === {json.dumps(text)})"
-        self.until(text, f"{entry} !== undefined")
-        self.browser.run(f"{entry}.click()")
 
     # ---- tests
 
@@ -97,7 +90,7 @@ class AnimationTest(StudioInBrowser):
         self.keys("e", "e")
         self.changed_by(lambda: self.choose_entry("Spline"))
         self.same_as_commands("time tom left-shin --frame 0-50 --ease spline")
-        self.open_tab("Curves")
+        self.tab("Curves")
         self.until("curves", "document.querySelector('.drawing .nothing').hidden")
         self.until("a key at its place", "document.querySelector('.panel:not([hidden]) > .drawing canvas').width > 300")
         _, top, _, height = self.box_of(".panel:not([hidden]) > .drawing")
@@ -125,10 +118,9 @@ class AnimationTest(StudioInBrowser):
     def test_a_walk_is_shown_and_kept(self):
         self.begin()
         self.click("#tree .row")
-        self.open_tab("Motions")
+        self.tab("Motions")
         self.click("[data-motion=walk]")
-        self.click('[data-key="motion.steps"]')
-        self.browser.command("Input.insertText", text="3")
+        self.type('[data-key="motion.steps"]', "3")
         before = self.film.read_text()
         self.assertTrue(self.is_seen('[data-key="motion.apply"]'), "below the fold")
         self.click('[data-key="motion.preview"]')
@@ -160,7 +152,7 @@ class AnimationTest(StudioInBrowser):
 
     def cut_camera(self):
         """It looks from elsewhere at once, and only from the frame on."""
-        self.open_tab("Scene")
+        self.tab("Scene")
         self.go_to(30)
         self.changed_by(lambda: self.click('[data-key="camera.cut"]'))
         self.write("camera.eye.x", -3.0)
@@ -170,22 +162,17 @@ class AnimationTest(StudioInBrowser):
             self.assertEqual(self.project()["camera"]["eye"][0], x)
 
     def go_to(self, frame):
-        self.click('[data-key="frame"]')
-        self.browser.run("document.activeElement.select()")
-        self.browser.command("Input.insertText", text=str(frame))
-        self.enter()
+        self.type('[data-key="frame"]', str(frame), enter=True)
         self.until(f"frame {frame}", f"window.seen.project.frame === {frame}")
 
     def test_a_script_says_what_is_wrong_at_its_line(self):
         self.begin()
-        self.open_tab("Scripts")
-        self.click('[data-key="script.text"]')
-        self.browser.command("Input.insertText", text="at 0  tom nod times 2\nthen  tom wlave\n")
+        self.tab("Scripts")
+        self.type('[data-key="script.text"]', "at 0  tom nod times 2\nthen  tom wlave\n")
         self.until("the error", "document.querySelector('.line-numbers .bad')?.textContent === '2'")
         self.assertIn("wlave", self.browser.run("return document.querySelector('.script-problem').textContent"))
         self.assertTrue(self.browser.run("return document.querySelector('[data-key=\"script.apply\"]').disabled"))
-        self.browser.run("document.querySelector('[data-key=\"script.text\"]').select()")
-        self.browser.command("Input.insertText", text="at 0  tom nod times 2\n")
+        self.type('[data-key="script.text"]', "at 0  tom nod times 2\n")
         self.until("no error", "!document.querySelector('[data-key=\"script.apply\"]').disabled && document.querySelector('.line-numbers .bad') === null")
         self.changed_by(lambda: self.click('[data-key="script.apply"]'))
         self.assertEqual((self.folder / "new.script").read_text(), "at 0  tom nod times 2\n")

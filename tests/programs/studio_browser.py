@@ -1,5 +1,4 @@
-"""`mars studio` and a headless Chromium whose mouse and keyboard are moved by the DevTools protocol, as a person's
-are."""
+"""`mars studio`, and a headless Chromium for its page."""
 
 import errno
 import os
@@ -9,36 +8,25 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import threading
 import time
 
-from selenium import webdriver
-from selenium.webdriver.chrome.options import Options
-from selenium.webdriver.chrome.service import Service
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "host/studio/page"))
+from chromium import Chromium  # noqa: E402
+from settled import PATIENCE, SCRIPT  # noqa: E402
 
-SECONDS = 30  # for whatever the page must show
-# Without a graphics card, Chromium's own raster is quicker than a card that the processor imitates.
-FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-extensions"]
-BUTTONS = {"left": 1, "right": 2, "middle": 4}
 CTRL, SHIFT = 2, 8
-# Rows of the tree that are out of sight are no elements.
-SHOW_IN_TREE = """
-const tree = document.querySelector("#tree [role=tree]");
-for (let top = 0; !document.querySelector(arguments[0]) && top < tree.scrollHeight; top += tree.clientHeight / 2) {
-  tree.scrollTop = top;
-  tree.dispatchEvent(new Event("scroll"));
-}
-"""
 
 
 class Studio:
-    """`mars studio FILE` in the file's folder; in a folder, one that begins a new model. `link` as a person gets it."""
+    """`mars studio FILE` in the file's folder; in a folder, one that begins a new model. `link` as a person gets it. Its
+    port, unless one is given, is any free one: at the usual port, pages of other tests might look for their studios."""
 
-    def __init__(self, programs, file, *arguments):
+    def __init__(self, programs, file, *arguments, port=0):
         file = pathlib.Path(file)
         opened, folder = ([], file) if file.is_dir() else ([file.name], file.parent)
-        command = [pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", *arguments]
+        command = [pathlib.Path(programs) / "mars", "studio", *opened, "--no-browser", "--port", str(port), *arguments]
         self.process = subprocess.Popen(command, cwd=folder, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.link = None
         for line in self.process.stdout:
@@ -53,7 +41,7 @@ class Studio:
         """The exit code and what it complained of."""
         if self.process.poll() is None:
             self.process.send_signal(number)
-        errors = self.process.communicate(timeout=SECONDS)[1]
+        errors = self.process.communicate(timeout=PATIENCE)[1]
         return self.process.returncode, errors
 
     def __enter__(self):
@@ -70,18 +58,12 @@ def found(program):
     raise FileNotFoundError(errno.ENOENT, "not installed", program)
 
 
-class Browser:
-    def __init__(self, width=1280, height=720, script=None, flags=()):
-        options = Options()
-        for flag in [*FLAGS, *flags]:
-            options.add_argument(flag)
-        options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-        self.driver = webdriver.Chrome(options=options, service=Service(found("chromedriver")))
-        self.command("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1,
-                     mobile=False)
-        if script:
-            self.command("Page.addScriptToEvaluateOnNewDocument", source=script)
-        self.held = ""
+class Browser(Chromium):
+    """`script` runs before the page's own ones."""
+
+    def __init__(self, width=1280, height=720, script="", flags=(), patience=PATIENCE):
+        super().__init__(found("chromedriver"), width, height, flags, patience)
+        self.command("Page.addScriptToEvaluateOnNewDocument", source=SCRIPT + script)
         self.logged = []
 
     def __enter__(self):
@@ -90,21 +72,15 @@ class Browser:
     def __exit__(self, *_):
         self.driver.quit()
 
-    def command(self, name, **arguments):
-        return self.driver.execute_cdp_cmd(name, arguments)
-
     def open(self, link):
         self.driver.get(link)
 
-    def run(self, script, *arguments):
-        return self.driver.execute_script(script, *arguments)
-
-    def until(self, what, condition, seconds=None):
+    def until(self, what, condition):
         """`condition`: JavaScript, or a function; its first value that counts as true."""
-        last = time.monotonic() + (seconds or SECONDS)
+        last = time.monotonic() + self.patience
         while not (value := self.run(f"return {condition}") if isinstance(condition, str) else condition()):
             if time.monotonic() > last:
-                raise AssertionError(f"not within {seconds or SECONDS} s: {what}\n" + "\n".join(self.console()))
+                raise AssertionError(f"not within {self.patience} s: {what}\n" + "\n".join(self.console()))
             time.sleep(0.02)
         return value
 
@@ -114,55 +90,22 @@ class Browser:
                         if entry["level"] in ("WARNING", "SEVERE")]
         return self.logged
 
-    # ---- mouse and keys
+    def key(self, name, shown="", modifiers=0):
+        for kind in ("keyDown", "keyUp"):
+            self.command("Input.dispatchKeyEvent", type=kind, key=name, text=shown if kind == "keyDown" else "",
+                         modifiers=modifiers, windowsVirtualKeyCode=ord(name.upper()) if len(name) == 1 else 0)
 
-    def mouse(self, kind, x, y, button="none", clicks=0, keys=0):
-        held = BUTTONS.get(self.held, 0)
-        self.command("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, buttons=held, clickCount=clicks,
-                     modifiers=keys)
-
-    def move(self, x, y, keys=0):
-        self.mouse("mouseMoved", x, y, self.held or "none", keys=keys)
-
-    def press(self, x, y, button="left", clicks=1, keys=0):
-        self.held = button
-        self.mouse("mousePressed", x, y, button, clicks, keys)
-
-    def release(self, x, y, clicks=1, keys=0):
-        button, self.held = self.held, ""
-        self.mouse("mouseReleased", x, y, button, clicks, keys)
-
-    def click(self, x, y, clicks=1, keys=0):
-        self.move(x, y, keys)
-        for each in range(1, clicks + 1):
-            self.press(x, y, clicks=each, keys=keys)
-            self.release(x, y, clicks=each, keys=keys)
-
-    def drag(self, begin, end, steps=10, button="left", keys=0):
-        self.move(*begin)
-        self.press(*begin, button, keys=keys)
-        for step in range(1, steps + 1):
-            self.move(*(a + (b - a) * step / steps for a, b in zip(begin, end)), keys=keys)
-        self.release(*end, keys=keys)
-
-    def center(self, selector):
-        return self.run("""
-            const at = document.querySelector(arguments[0]).getBoundingClientRect();
-            return [at.x + at.width / 2, at.y + at.height / 2];""", selector)
-
-    def find(self, view, wanted, pause=0.03):
-        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it. `pause`:
-        seconds until the studio has said what is there."""
+    def find(self, view, wanted):
+        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it."""
         left, top, width, height = self.run("""
             const at = arguments[0].getBoundingClientRect();
             return [at.x, at.y, at.width, at.height];""", view)
-        # A busy machine answers late, and some limbs are small.
-        for patience, columns in ((pause, 40), (2 * pause, 120), (5 * pause, 40)):
+        for columns in (40, 120):  # some limbs are small
             for down in (0.5, 0.45, 0.4, 0.55, 0.35, 0.6, 0.3, 0.65, 0.25, 0.7, 0.2, 0.75):
                 for along in [0.5 + sign * step / columns for step in range(2 * columns // 5) for sign in (1, -1)]:
                     x, y = round(left + along * width), round(top + down * height)
                     self.move(x, y)
-                    time.sleep(patience)
+                    self.settle()
                     over, text = self.run("""
                         const [view] = arguments;
                         return [view.dataset.over, view.querySelector('.tip').textContent];""", view)

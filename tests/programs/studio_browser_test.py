@@ -2,6 +2,7 @@
 to its limit, pictures are the film's own frames, and what dies comes back."""
 
 import base64
+import functools
 import json
 import re
 import signal
@@ -10,7 +11,7 @@ import urllib.parse
 from selenium.webdriver.support.ui import Select
 
 from harness import *
-from studio_browser import CTRL, SHIFT, SHOW_IN_TREE, Browser, Proxy, Studio, tree_of
+from studio_browser import CTRL, PATIENCE, SHIFT, Browser, Proxy, Studio, tree_of
 
 # Counts what the studio says and what the page paints; a person sees both.
 PROBE = """
@@ -63,18 +64,21 @@ const [canvas, encoded, done] = arguments;
 """
 
 
-class StudioInBrowser(ProgramTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = Browser(script=PROBE)
+@functools.cache
+def one_browser():
+    browser = Browser(script=PROBE, patience=300 if SANITIZED else PATIENCE)
+    unittest.addModuleCleanup(browser.driver.quit)
+    return browser
 
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.__exit__()
+
+class StudioInBrowser(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.browser = one_browser()
 
     def start(self, file, *arguments):
         studio = self.enterContext(Studio(PROGRAMS, file, *arguments))
-        self.addCleanup(self.browser.open, "about:blank")  # or the page asks the next one's studio at this port
+        self.addCleanup(self.browser.open, "about:blank")  # or the page goes on looking for its studio
         self.show(studio.link)
         return studio
 
@@ -85,7 +89,7 @@ class StudioInBrowser(ProgramTest):
         self.until("the project", "window.seen.projects > 0")
 
     def until(self, what, condition):
-        return self.browser.until(what, condition, 300 if SANITIZED else None)
+        return self.browser.until(what, condition)
 
     def pictures_in_all_views(self):
         self.until("pictures", "document.querySelectorAll('.view .waiting[hidden]').length === 4")
@@ -112,82 +116,76 @@ class StudioInBrowser(ProgramTest):
 
     def changed_by(self, act):
         """Until the studio has said what came of it."""
+        self.browser.settle()
         before = self.browser.run("return window.seen.projects")
         act()
         self.until("the project's change", f"window.seen.projects > {before}")
 
-    def click(self, selector):
-        self.browser.run(SHOW_IN_TREE, selector)
-        self.until(selector, f"document.querySelector('{selector}') !== null")
-        self.browser.run("document.querySelector(arguments[0]).scrollIntoView({block: 'nearest'})", selector)
-        self.browser.click(*self.browser.center(selector))
+    def click(self, selector, text=None, keys=0):
+        self.browser.click_on(selector, text, keys=keys)
 
     def keys(self, name, shown="", modifiers=0):
-        for kind in ("keyDown", "keyUp"):
-            self.browser.command("Input.dispatchKeyEvent", type=kind, key=name, text=shown if kind == "keyDown" else "",
-                                 modifiers=modifiers, windowsVirtualKeyCode=ord(name.upper()) if len(name) == 1 else 0)
+        with self.browser.still():
+            self.browser.key(name, shown, modifiers)
 
     def enter(self):
         self.keys("Enter", "\r")
 
+    def type(self, selector, text, enter=False):
+        """In place of what the field has."""
+        with self.browser.on(selector) as (field, place):
+            self.browser.click(*place)
+            self.browser.run("arguments[0].select()", field)
+            self.browser.command("Input.insertText", text=text)
+            if enter:
+                self.browser.key("Enter", "\r")
+
     def write(self, key, text):
         """Into a field of the panel, if it is not there yet."""
         field = f'[data-key="{key}"]'
-        self.until(field, f"document.querySelector('{field}') !== null")
-        shown = self.browser.run("return document.querySelector(arguments[0]).value", field)
+        shown = self.of(field, "value")
         if shown == text or (isinstance(text, float) and number(shown) == text):
             return
-        self.click(field)
-        self.browser.run("document.querySelector(arguments[0]).select()", field)
-        self.browser.command("Input.insertText", text=f"{text:g}" if isinstance(text, float) else text)
-        self.changed_by(self.enter)
+        self.changed_by(lambda: self.type(field, f"{text:g}" if isinstance(text, float) else text, enter=True))
+
+    def of(self, field, member):
+        """What a field of the settled page has."""
+        with self.browser.on(field) as (element, _):
+            return self.browser.run("return arguments[0][arguments[1]]", element, member)
 
     def choose(self, key, value):
         field = f'[data-key="{key}"]'
-        self.until(field, f"document.querySelector('{field}') !== null")
-        if self.browser.run("return document.querySelector(arguments[0]).value", field) != value:
-            choice = Select(self.browser.driver.find_element("css selector", field))
-            self.changed_by(lambda: choice.select_by_value(value))
+        if self.of(field, "value") != value:
+            self.changed_by(lambda: self.pick(field, value))
+
+    def pick(self, field, value):
+        with self.browser.on(field) as (element, _):
+            Select(element).select_by_value(value)
 
     def toggle(self, key, on):
         field = f'[data-key="{key}"]'
-        self.until(field, f"document.querySelector('{field}') !== null")
-        if self.browser.run("return document.querySelector(arguments[0]).checked", field) != on:
+        if self.of(field, "checked") != on:
             self.changed_by(lambda: self.click(field))
 
     def select(self, joint):
-        row = f'[role=treeitem][aria-label="{joint}"] > .row'
-        self.click(row)
+        self.click(f'[role=treeitem][aria-label="{joint}"] > .row')
         self.until(f"{joint} selected", lambda: self.browser.run(
             "return document.querySelector('[data-key=name]')?.value === arguments[0]", joint))
 
     def press(self, text):
         """A button of the panels with this text."""
-        spot = self.browser.run("""
-            const button = [...document.querySelectorAll('#panels button')]
-              .find((each) => each.textContent === arguments[0] && each.offsetParent !== null);
-            button.scrollIntoView({block: 'nearest'});
-            const at = button.getBoundingClientRect();
-            return [at.x + at.width / 2, at.y + at.height / 2];""", text)
-        self.changed_by(lambda: self.browser.click(*spot))
+        self.changed_by(lambda: self.click("#panels button", text))
 
     def tab(self, text):
-        spot = self.browser.run("""
-            const at = [...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === arguments[0])
-              .getBoundingClientRect();
-            return [at.x + at.width / 2, at.y + at.height / 2];""", text)
-        self.browser.click(*spot)
+        self.click("[role=tab]", text)
+
+    def choose_entry(self, text):
+        self.click(".menu .text", text)
 
     def menu(self, view, text):
         """An entry of a view's menu."""
-        self.browser.click(*self.browser.center(f".title[data-view='{view}']"))
-        entry = f"""[...document.querySelectorAll('.menu [role^=menuitem]')]
-          .find((each) => each.textContent.startsWith({json.dumps(text)}))"""
-        self.until(text, f"{entry} !== undefined")
-        spot = self.browser.run(f"""
-            const at = {entry}.getBoundingClientRect();
-            return [at.x + at.width / 2, at.y + at.height / 2];""")
-        self.browser.click(*spot)
+        self.click(f".title[data-view='{view}']")
+        self.choose_entry(text)
 
 
 class TutorialTest(StudioInBrowser):
@@ -272,7 +270,7 @@ class TutorialTest(StudioInBrowser):
             return blue;
         })"""
         for view in range(4):
-            self.browser.click(*self.browser.center(f"[data-key=view-{view}] canvas"))
+            self.click(f"[data-key=view-{view}]")
             self.keys("a")
         self.until("the figure's blue in all views", lambda: all(count > 40 for count in self.browser.run(blue)))
 
@@ -320,12 +318,12 @@ class FilmTest(StudioInBrowser):
 
     def wave(self, at, until):
         """The mouse moves on, until `until` is true."""
-        step, last = 0, time.monotonic() + SECONDS
+        step, last = 0, time.monotonic() + self.browser.patience
         while not until():
             step += 1
             self.browser.move(at[0] + 5 * (step % 8), at[1] + 10)
+            self.browser.settle()
             self.assertLess(time.monotonic(), last)
-            time.sleep(0.02)
 
     def host_of(self, studio):
         return [process for process, words in tree_of(studio.process.pid).items() if words[0].endswith("mars-threads")]
@@ -402,13 +400,10 @@ class FilmTest(StudioInBrowser):
         hosts = self.host_of(studio)
         self.assertEqual(studio.end(signal.SIGKILL)[0], -signal.SIGKILL)
         self.banner("connection", "The studio does not answer")
-        last = time.monotonic() + SECONDS
-        while any(identity(host) for host in hosts):
-            self.assertLess(time.monotonic(), last, "the renderer lives on")
-            time.sleep(0.05)
+        wait_until(lambda: not any(identity(host) for host in hosts), PATIENCE, "the renderer lives on")
         self.no_complaint(*NO_STUDIO)
         port = re.search(r":(\d+)/", studio.link)[1]
-        again = self.enterContext(Studio(PROGRAMS, file, "--port", port))
+        again = self.enterContext(Studio(PROGRAMS, file, port=port))
         self.banner("connection", "Open the link that it has printed")
         self.show(again.link)
         self.pictures_in_all_views()

@@ -4,10 +4,8 @@ film that the tutorial's commands make."""
 import re
 import subprocess
 
-from selenium.webdriver.support.ui import Select
-
 from harness import *
-from studio_browser import CTRL, SHIFT
+from studio_browser import CTRL, PATIENCE, SHIFT
 from studio_browser_test import StudioInBrowser
 
 TUTORIAL = (SOURCES / "docs" / "tutorial.md").read_text()
@@ -42,13 +40,10 @@ class TutorialsFilmTest(StudioInBrowser):
 
     def fill(self, key, text):
         """A field that changes nothing by itself."""
-        self.click(f'[data-key="{key}"]')
-        self.browser.run("document.activeElement.select()")
-        self.browser.command("Input.insertText", text=text)
+        self.type(f'[data-key="{key}"]', text)
 
     def go_to(self, frame):
-        self.fill("frame", str(frame))
-        self.enter()
+        self.type('[data-key="frame"]', str(frame), enter=True)
         self.until(f"frame {frame}", f"window.seen.project.frame === {frame}")
 
     def add_actor(self, model):
@@ -73,8 +68,7 @@ class TutorialsFilmTest(StudioInBrowser):
 
     def fill_motion(self, key, value):
         if isinstance(value, str):
-            Select(self.browser.driver.find_element("css selector", f'[data-key="{key}"]')).select_by_value(value)
-            return
+            return self.pick(f'[data-key="{key}"]', value)
         for at, number in enumerate(value if isinstance(value, list) else [value]):
             self.fill(f"{key}{at or ''}", f"{number:g}")
 
@@ -91,10 +85,11 @@ class TutorialsFilmTest(StudioInBrowser):
             self.click("[data-row=pip] .twist")
         self.click(f'[data-row="pip {first}"] .name')
         for other in others:
-            self.browser.click(*self.browser.center(f'[data-row="pip {other}"] .name'), keys=CTRL)
+            self.click(f'[data-row="pip {other}"] .name', keys=CTRL)
 
     def key_at(self, part, frame):
         """Where a key of a part that shows is in the sheet."""
+        self.browser.settle()
         ruler, row, frames = self.browser.run("""
             const [ruler, row] = ['.ruler', arguments[0]].map((each) => document.querySelector(each).getBoundingClientRect());
             return [ruler.toJSON(), row.toJSON(), window.seen.project.frames];""", f'[data-row="pip {part}"]')
@@ -104,22 +99,15 @@ class TutorialsFilmTest(StudioInBrowser):
         for number, part in enumerate(parts):
             self.browser.click(*self.key_at(part, frame), keys=SHIFT if number else 0)
 
-    def choose_entry(self, text):
-        entry = f"[...document.querySelectorAll('.menu button')].find((each) => each.textContent === '{text}')"
-        self.until(text, f"{entry} !== undefined")
-        self.browser.click(*self.browser.run(f"""
-            const at = {entry}.getBoundingClientRect();
-            return [at.x + at.width / 2, at.y + at.height / 2];"""))
-
     # ---- what is taken back
 
     def file_becomes(self, text):
-        wait_until(lambda: self.file.read_text() == text, SECONDS, "the file's text")
+        wait_until(lambda: self.file.read_text() == text, PATIENCE, "the file's text")
 
     def file_changed_by(self, act):
         before = self.file.read_text()
         act()
-        wait_until(lambda: self.file.read_text() != before, SECONDS, "a change of the file")
+        wait_until(lambda: self.file.read_text() != before, PATIENCE, "a change of the file")
 
     def undone(self, act, steps):
         """Undo and redo take away and bring back, by the keyboard, what `act` changes; it is left undone."""

@@ -5,7 +5,6 @@ from harness import *
 from studio_browser import CTRL
 from studio_browser_test import StudioInBrowser
 
-PATIENCE = 90  # seconds for pictures that wait for time that nothing else takes
 ROCK = """mtllib rock.mtl
 usemtl red
 v 0 0 0\nv 1 0 0\nv 0 1.5 0\nv 0 0 1
@@ -149,7 +148,7 @@ class ImportTest(StudioInBrowser):
         self.assertEqual(self.browser.run("return document.querySelectorAll('[data-key=\"import.without\"]').length"), 0)
         self.browser.run(DROP, [["corners.bin", list(CORNERS)]])
         self.assertIn("3 vertices, 1 face", self.panel("done"))
-        self.browser.until("its picture", "document.querySelector('#import canvas')?.ariaLabel === 'sail.json'", PATIENCE)
+        self.until("its picture", "document.querySelector('#import canvas')?.ariaLabel === 'sail.json'")
         self.browser.run(DROP, [["stride.amc", AMC]])
         self.assertIn("The skeleton (.asf) of stride.amc", self.panel("waiting"))
         self.browser.run(DROP, [["stride.amc", AMC], ["walker.asf", ASF]])
@@ -162,12 +161,12 @@ class ImportTest(StudioInBrowser):
         card = "document.querySelector('[data-key=\"model.{}\"] .thumbnail')"
         self.until("the card", f"{card.format('rock.json')} !== null")
         self.browser.run(f"{card.format('rock.json')}.scrollIntoView({{block: 'center'}})")
-        self.browser.until("a picture", f"{card.format('rock.json')}.dataset.state === 'there'", PATIENCE)
+        self.until("a picture", f"{card.format('rock.json')}.dataset.state === 'there'")
         self.assertGreater(self.browser.run(f"""
             const canvas = {card.format('rock.json')}.querySelector("canvas");
             const {{data}} = canvas.getContext("2d", {{willReadFrequently: true}}).getImageData(0, 0, canvas.width, canvas.height);
             return data.filter((red, at) => at % 4 === 0 && red > 1.5 * data[at + 1] && red > 1.5 * data[at + 2]).length;"""), 500)  # it is red
-        self.browser.until("the broken file", f"({card.format('cut.json')}?.scrollIntoView({{block: 'center'}}), {card.format('cut.json')}?.dataset.state === 'problem')", PATIENCE)
+        self.until("the broken file", f"({card.format('cut.json')}?.scrollIntoView({{block: 'center'}}), {card.format('cut.json')}?.dataset.state === 'problem')")
         self.assertIn("cut.json:1", self.browser.run(f"return {card.format('cut.json')}.innerText"))
         (self.films / "cut.json").unlink()
 

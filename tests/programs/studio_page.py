@@ -9,7 +9,7 @@ import ssl
 import struct
 import urllib.parse
 
-SECONDS = 20
+SECONDS = 120  # for whatever the studio must say
 
 
 def connect(link):

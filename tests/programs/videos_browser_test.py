@@ -35,7 +35,6 @@ class Videos(VideoTest):
         last = self.frames("out")[-1]
         places = [(x, 45) for x in (6, 32, 63, 96)]  # the ground and three boxes, away from edges
         with Browser() as browser:
-            browser.driver.set_script_timeout(30)
             for kind in ("mp4", "webm"):
                 data = base64.b64encode((self.folder / f"film.{kind}").read_bytes()).decode()
                 shown = browser.driver.execute_async_script(PLAY, data, f"video/{kind}", places)

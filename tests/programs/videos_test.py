@@ -4,12 +4,10 @@ is left when ffmpeg fails."""
 import functools
 import json
 import os
-import pathlib
 import shutil
 import signal
 import struct
 import subprocess
-import tempfile
 import wave
 
 import harness
@@ -50,8 +48,7 @@ class VideoTest(ProgramTest):
 
     def with_ffmpeg(self, script):
         """An environment whose ffmpeg knows its encoders at once and is else a script, which finds the real one as $FFMPEG."""
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-ffmpeg-"))
-        self.addCleanup(shutil.rmtree, folder)
+        folder = self.temporary_folder()
         (folder / "encoders").write_text(encoders())
         knows = f'case "$*" in *-encoders*) exec cat {folder}/encoders;; esac\n' if "$FFMPEG" in script else ""
         (folder / "ffmpeg").write_text(f"#!/bin/sh\nFFMPEG={shutil.which('ffmpeg')}\n{knows}{script}\n")

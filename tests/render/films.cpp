@@ -14,12 +14,12 @@ namespace mars::test {
 namespace {
 
 Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vec3 cross(const Vec3& a, const Vec3& b) {
+double dot_product(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3 cross_product(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vec3 unit(const Vec3& a) {
-  const double length = std::sqrt(dot(a, a));
+Vec3 unit_vector(const Vec3& a) {
+  const double length = std::sqrt(dot_product(a, a));
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
@@ -72,11 +72,11 @@ wire::Matrix placed(const Vec3& place, double size, double angle) {
 }
 
 wire::Camera looking(const Vec3& eye, const Vec3& at, double fov, double near, double far) {
-  const Vec3 z = unit(minus(eye, at)), x = unit(cross({0, 0, 1}, z)), y = cross(z, x);
+  const Vec3 z = unit_vector(minus(eye, at)), x = unit_vector(cross_product({0, 0, 1}, z)), y = cross_product(z, x);
   wire::Camera camera{{}, 1 / std::tan(fov * std::numbers::pi / 360), near, far};
   const Vec3 axes[] = {x, y, z};
   for (std::size_t r = 0; r < 3; ++r)
-    camera.world_to_eye.m[r] = {axes[r][0], axes[r][1], axes[r][2], -dot(axes[r], eye)};
+    camera.world_to_eye.m[r] = {axes[r][0], axes[r][1], axes[r][2], -dot_product(axes[r], eye)};
   return camera;
 }
 

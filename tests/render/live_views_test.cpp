@@ -82,22 +82,22 @@ struct Size {
 };
 
 // An edit of a moment that is also said as a Draw's change.
-class Edit {
+class SceneEdit {
  public:
-  explicit Edit(const Moment& keyframe) : moment_(keyframe) {}
-  Edit& move(std::uint32_t segment, double by) {
+  explicit SceneEdit(const Moment& keyframe) : moment_(keyframe) {}
+  SceneEdit& move(std::uint32_t segment, double by) {
     wire::Matrix& matrix = moment_.matrix(segment);
     matrix.m[0][3] += by;
     matrix.m[2][3] += by / 3;
     change_.segments.push_back({segment, moment_.material(segment), matrix});
     return *this;
   }
-  Edit& paint(std::uint32_t segment, std::uint32_t material) {
+  SceneEdit& paint(std::uint32_t segment, std::uint32_t material) {
     moment_.material(segment) = material;
     change_.segments.push_back({segment, material, moment_.matrix(segment)});
     return *this;
   }
-  Edit& pull(std::uint32_t patch, float by) {
+  SceneEdit& pull(std::uint32_t patch, float by) {
     for (std::size_t k = 5; k < 11; ++k) moment_.patch(patch).points[k][2] += by;
     change_.patches.push_back({patch, 0, moment_.patch(patch)});
     return *this;
@@ -154,12 +154,12 @@ class LiveViews : public testing::TestWithParam<int> {
     moment.give_shape(kSphere);
     moment.moving({kTeapot, kSphere, kLastBall});
     expect(host.finish(host.begin(view, moment.scene(), still_memory)), moment, name + "-keyframe");
-    const std::vector<std::pair<const char*, Edit>> edits = {
-        {"moved", Edit(moment).move(kTeapot, 0.7)},
-        {"painted", Edit(moment).paint(kLastBall, 0).move(kTeapot, -0.4)},
-        {"pulled", Edit(moment).pull(1, 0.4f).pull(3, -0.2f)},
-        {"pulled-more", Edit(moment).pull(3, 0.3f).move(kSphere, 0.3)},
-        {"back", Edit(moment)}};
+    const std::vector<std::pair<const char*, SceneEdit>> edits = {
+        {"moved", SceneEdit(moment).move(kTeapot, 0.7)},
+        {"painted", SceneEdit(moment).paint(kLastBall, 0).move(kTeapot, -0.4)},
+        {"pulled", SceneEdit(moment).pull(1, 0.4f).pull(3, -0.2f)},
+        {"pulled-more", SceneEdit(moment).pull(3, 0.3f).move(kSphere, 0.3)},
+        {"back", SceneEdit(moment)}};
     for (const auto& [what, edit] : edits) {
       const int node = some_node(host);
       const LivePicture picture = host.finish(host.draw(view, edit.change(), node));
@@ -174,11 +174,11 @@ class LiveViews : public testing::TestWithParam<int> {
   std::uint32_t turn_ = 0;
 };
 
-wire::FilmData base() { return crowd(16, 16, 1, 1); }
+wire::FilmData small_crowd() { return crowd(16, 16, 1, 1); }
 
 TEST_P(LiveViews, ShowTheirMoments) {
   run([&](LiveHost& host) {
-    host.load(base());
+    host.load(small_crowd());
     show(host, 0, {96, 64, 1}, "one-sample");
     show(host, 1, {64, 48, 4}, "samples");
     show(host, 0, {80, 50, 4}, "resized");
@@ -191,7 +191,7 @@ TEST_P(LiveViews, ShowTheirMoments) {
 
 TEST_P(LiveViews, WithShadowsShowTheirMoments) {
   run([&](LiveHost& host) {
-    host.load(base());
+    host.load(small_crowd());
     show(host, 0, {48, 32, 1, true}, "shadows-one-sample");
     show(host, 1, {40, 27, 4, true}, "shadows-samples");
     show(host, 2, {32, 20, 4, true}, "shadows-not-kept", 0);
@@ -203,7 +203,7 @@ TEST_P(LiveViews, OnSeveralMachines) {
   messages::Counts counts;
   run(
       [&](LiveHost& host) {
-        host.load(base());
+        host.load(small_crowd());
         show(host, 0, {64, 48, 1}, "machines-one-sample");
         show(host, 1, {64, 48, 4}, "machines-samples");
         show(host, 2, {32, 20, 4, true}, "machines-shadows");
@@ -213,7 +213,7 @@ TEST_P(LiveViews, OnSeveralMachines) {
 
 TEST_P(LiveViews, OfSeveralSizesTakeTurns) {
   run([&](LiveHost& host) {
-    host.load(base());
+    host.load(small_crowd());
     const std::vector<Size> sizes = {{96, 64, 1}, {33, 70, 4}, {120, 20, 2}};
     std::vector<Moment> moments;
     for (std::uint32_t v = 0; v < sizes.size(); ++v) {
@@ -221,9 +221,9 @@ TEST_P(LiveViews, OfSeveralSizesTakeTurns) {
       expect(host.finish(host.begin(v, moments[v].scene())), moments[v], "turns-keyframe");
     }
     for (int turn = 0; turn < 3; ++turn) {
-      std::vector<std::pair<std::uint32_t, Edit>> asked;
+      std::vector<std::pair<std::uint32_t, SceneEdit>> asked;
       for (std::uint32_t v = 0; v < sizes.size(); ++v) {
-        const Edit edit = Edit(moments[v]).move(kTeapot, 0.2 * turn).move(kLastBall, -0.1 * turn);
+        const SceneEdit edit = SceneEdit(moments[v]).move(kTeapot, 0.2 * turn).move(kLastBall, -0.1 * turn);
         asked.emplace_back(host.draw(v, edit.change(), some_node(host)), edit);
       }
       for (const auto& [picture, edit] : asked) expect(host.finish(picture), edit.moment(), "turns");
@@ -234,14 +234,14 @@ TEST_P(LiveViews, OfSeveralSizesTakeTurns) {
 // As where the camera moves.
 TEST_P(LiveViews, InWhichAllMoves) {
   run([&](LiveHost& host) {
-    host.load(base());
+    host.load(small_crowd());
     Moment moment(90, 60, 4);
     moment.moving(moment.all());
     for (int k = 0; k < 3; ++k) {
       moment.camera().world_to_eye.m[0][3] += 0.3;
       expect(host.finish(host.begin(3, moment.scene())), moment, "orbit");
     }
-    const Edit edit = Edit(moment).move(0, 0.5).move(kTeapot, 1);
+    const SceneEdit edit = SceneEdit(moment).move(0, 0.5).move(kTeapot, 1);
     expect(host.finish(host.draw(3, edit.change(), some_node(host))), edit.moment(), "all-moved");
     moment.moving({});
     expect(host.finish(host.begin(3, moment.scene())), moment, "rest");
@@ -250,10 +250,10 @@ TEST_P(LiveViews, InWhichAllMoves) {
 
 TEST_P(LiveViews, InbetweensDrawWhatMovesAlone) {
   run([&](LiveHost& host) {
-    host.load(base());
+    host.load(small_crowd());
     const Moment moment = Moment(96, 64, 4).moving({kTeapot});
     const LivePicture keyframe = host.finish(host.begin(0, moment.scene()));
-    const Edit edit = Edit(moment).move(kTeapot, 0.5);
+    const SceneEdit edit = SceneEdit(moment).move(kTeapot, 0.5);
     const LivePicture inbetween = host.finish(host.draw(0, edit.change(), some_node(host)));
     std::uint64_t all = 0;
     for (const wire::Strip& strip : keyframe.lasts) all += strip.work.triangles;
@@ -267,20 +267,20 @@ TEST_P(LiveViews, InbetweensDrawWhatMovesAlone) {
 
 TEST_P(LiveViews, EndWhereNewOnesBegin) {
   run([&](LiveHost& host) {
-    host.load(base());
+    host.load(small_crowd());
     const Moment old_one = Moment(400, 300, 4).moving({kTeapot}), other = Moment(64, 48, 1).moving({kTeapot});
     const Moment latest_one = Moment(400, 300, 4).moving({kTeapot, kLastBall});
     bool any_cut = false;
     for (int k = 0; k < 6; ++k) {
       const std::uint32_t old = host.begin(0, old_one.scene());
       const std::uint32_t between = host.begin(1, other.scene());
-      const std::uint32_t drawn = host.draw(0, Edit(old_one).move(kTeapot, 0.1 * k).change(), some_node(host));
+      const std::uint32_t drawn = host.draw(0, SceneEdit(old_one).move(kTeapot, 0.1 * k).change(), some_node(host));
       const std::uint32_t latest = host.begin(0, latest_one.scene());
       any_cut |= host.finish(old).cut();
       expect(host.finish(between), other, "beside-cut");
       host.finish(drawn);
       expect(host.finish(latest), latest_one, "after-cut");
-      const Edit edit = Edit(latest_one).move(kTeapot, 0.3).paint(kLastBall, 1);
+      const SceneEdit edit = SceneEdit(latest_one).move(kTeapot, 0.3).paint(kLastBall, 1);
       expect(host.finish(host.draw(0, edit.change(), some_node(host))), edit.moment(), "drawn-after-cut");
     }
     EXPECT_TRUE(any_cut);
@@ -294,15 +294,15 @@ TEST_P(LiveViews, EndWhereNewOnesBegin) {
 TEST_P(LiveViews, EndWithTheirFilm) {
   run([&](LiveHost& host) {
     const Moment moment = Moment(200, 150, 4).moving({kTeapot});
-    host.load(base());
+    host.load(small_crowd());
     show(host, 5, {64, 48, 2}, "first-film");
     host.begin(0, moment.scene());
-    host.draw(0, Edit(moment).move(kTeapot, 1).change(), some_node(host));
+    host.draw(0, SceneEdit(moment).move(kTeapot, 1).change(), some_node(host));
     host.begin(1, moment.scene());
-    wire::FilmData other = base();
+    wire::FilmData other = small_crowd();
     std::swap(other.shapes[0], other.shapes[1]);
     host.load(other);
-    host.load(base());
+    host.load(small_crowd());
     show(host, 0, {64, 48, 4}, "next-film");
     host.begin(0, moment.scene());
   });

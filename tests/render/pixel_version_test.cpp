@@ -34,14 +34,14 @@ wire::FilmData balls() {
   return maker.make();
 }
 
-struct Case {
+struct HashedCase {
   std::string name;
   wire::FilmData film;
   wire::PixelFormat format = wire::PixelFormat::rgb8;
 };
 
-std::vector<Case> cases() {
-  std::vector<Case> all;
+std::vector<HashedCase> hashed_cases() {
+  std::vector<HashedCase> all;
   for (const std::uint32_t samples : {1u, 4u, 16u}) {
     const std::string of = "-" + std::to_string(samples);
     all.push_back({"crowd" + of, with_samples(crowd(96, 54, 4, 3), samples)});
@@ -58,7 +58,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-std::string hash_of(const Case& of) {
+std::string hash_of(const HashedCase& of) {
   RunOptions options;
   options.nodes = 2;
   options.format = of.format;
@@ -71,7 +71,7 @@ std::string hash_of(const Case& of) {
 
 std::string table() {
   std::string lines = "pixel-version " + std::to_string(wire::kPixelVersion) + "\n";
-  for (const Case& each : cases()) lines += each.name + " " + hash_of(each) + "\n";
+  for (const HashedCase& each : hashed_cases()) lines += each.name + " " + hash_of(each) + "\n";
   return lines;
 }
 

@@ -15,7 +15,7 @@
 namespace mars::test {
 namespace {
 
-constexpr std::uint32_t kBackground = 0xff00ff;
+constexpr std::uint32_t kReferenceBackground = 0xff00ff;
 
 TEST(Reference, Crowd) {
   const auto film = crowd(320, 180, 5, 5);
@@ -96,7 +96,7 @@ TEST(Sphere, OutlineAndShadingFollowTheFormula) {
       const std::uint32_t pixel = pixels[row * kSize + column];
       const SphereHit hit = meet_sphere(column, row, kSize);
       const bool sure = std::abs(hit.distance_from_edge) > 0.3;
-      EXPECT_TRUE(!sure || (pixel != kBackground) == hit.hit) << column << ", " << row;
+      EXPECT_TRUE(!sure || (pixel != kReferenceBackground) == hit.hit) << column << ", " << row;
       if (!hit.hit || hit.distance_from_edge < 1) continue;
       const double facing = std::max(0.0, dot(hit.normal, light));
       const double mirrored = facing > 0 ? 2 * facing * dot(hit.normal, hit.eye) - dot(light, hit.eye) : 0;
@@ -117,7 +117,7 @@ int holes(const Pixels& pixels, std::uint32_t size) {
   std::vector<std::uint8_t> outside(pixels.size());
   std::vector<std::size_t> open;
   const auto visit = [&](std::size_t i) {
-    if (pixels[i] != kBackground || outside[i]) return;
+    if (pixels[i] != kReferenceBackground || outside[i]) return;
     outside[i] = 1;
     open.push_back(i);
   };
@@ -132,7 +132,7 @@ int holes(const Pixels& pixels, std::uint32_t size) {
     if (i + size < pixels.size()) visit(i + size);
   }
   int count = 0;
-  for (std::size_t i = 0; i < pixels.size(); ++i) count += pixels[i] == kBackground && !outside[i];
+  for (std::size_t i = 0; i < pixels.size(); ++i) count += pixels[i] == kReferenceBackground && !outside[i];
   return count;
 }
 
@@ -170,9 +170,9 @@ TEST(Closed, NoTriangleIsLitFromBehind) {
       const Pixels pixels = draw_body(film);
       int dark = 0;
       for (std::size_t k = 240; k + 240 < pixels.size(); ++k) {
-        const bool inside = pixels[k - 1] != kBackground && pixels[k + 1] != kBackground &&
-                            pixels[k - 240] != kBackground && pixels[k + 240] != kBackground &&
-                            pixels[k] != kBackground;
+        const bool inside = pixels[k - 1] != kReferenceBackground && pixels[k + 1] != kReferenceBackground &&
+                            pixels[k - 240] != kReferenceBackground && pixels[k + 240] != kReferenceBackground &&
+                            pixels[k] != kReferenceBackground;
         const auto level = [&](std::size_t at) { return static_cast<int>(pixels[at] >> 8 & 255); };
         dark += inside && level(k) < level(k - 1) / 2 && level(k) < level(k + 1) / 2;
       }

@@ -37,7 +37,7 @@ Vec3 along(const Vec3& from, const Vec3& way, double far) {
   return {from[0] + far * way[0], from[1] + far * way[1], from[2] + far * way[2]};
 }
 
-Vec3 unit(const Vec3& a) { return along({0, 0, 0}, a, 1 / length(a)); }
+Vec3 unit_vector(const Vec3& a) { return along({0, 0, 0}, a, 1 / length(a)); }
 
 std::array<float, 3> floats(const Vec3& a) {
   return {static_cast<float>(a[0]), static_cast<float>(a[1]), static_cast<float>(a[2])};
@@ -56,7 +56,7 @@ wire::Matrix stretched(const Vec3& place, const Vec3& size) {
 }
 
 wire::Light directional(const Vec3& to_light, double size = 0) {
-  wire::Light light{wire::LightKind::directional, floats(unit(to_light)), {1, 1, 1}};
+  wire::Light light{wire::LightKind::directional, floats(unit_vector(to_light)), {1, 1, 1}};
   light.casts = 1;
   light.size = static_cast<float>(size);
   return light;
@@ -143,14 +143,14 @@ wire::FilmData over_floor(const std::vector<wire::Patch>& caster, const wire::Ma
 TEST(Shadows, OfASphereAreTheEllipse) {
   constexpr double kRadius = 0.7;
   for (const double turn : {0.3, 2.0, 4.4}) {
-    const Vec3 middle{0.4, -0.3, 2}, to_light = unit({std::cos(turn), std::sin(turn), 0.8});
+    const Vec3 middle{0.4, -0.3, 2}, to_light = unit_vector({std::cos(turn), std::sin(turn), 0.8});
     const View view(over_floor(modeler::make_sphere(), placed(along(middle, {1, 1, 1}, -kRadius), 2 * kRadius),
                                directional(to_light), looking_down({0, 0, 12}, 45)));
     const Shows shows = [&](double x, double y) {
       return length(cross(middle - view.floor(x, y), to_light)) < kRadius ? 1 : 0;
     };
     const Shows sees_sphere = [&](double x, double y) {
-      return length(cross(middle - view.eye(), unit(view.way(x, y)))) < kRadius ? 1 : 0;
+      return length(cross(middle - view.eye(), unit_vector(view.way(x, y)))) < kRadius ? 1 : 0;
     };
     int dark = 0, all_dark = 0, compared = 0;
     for (std::uint32_t y = 0; y < view.height(); ++y)
@@ -334,7 +334,7 @@ TEST(Shadows, OfABoxMeetItsFeetAndLeaveItsLitSidesAlone) {
     for (const Vec3& to : lights) {
       SCOPED_TRACE("size " + std::to_string(size) + ", light along " + std::to_string(to[0]));
       const Box box{size, 0.4 + to[1]};
-      const Vec3 to_light = unit(to);
+      const Vec3 to_light = unit_vector(to);
       FilmMaker maker(120, 90, 1);
       maker.add_segment(maker.add_shape(sheet()), maker.add_material(kFloor),
                         {stretched({-20 * size, -20 * size, 0}, {40 * size, 40 * size, 1})});
@@ -433,7 +433,8 @@ TEST(Shadows, OfASphereLieOnItsDarkSideAlone) {
     for (const double away : {3.0, 30.0})
       for (int trial = 0; trial < 6; ++trial) {
         const Vec3 way{random.real(-1, 1), random.real(-1, 1), random.real(-0.5, 1)};
-        const wire::Light light = trial % 2 ? directional(way) : point(along({0, 0, 0}, unit(way), 2.5 * radius));
+        const wire::Light light =
+            trial % 2 ? directional(way) : point(along({0, 0, 0}, unit_vector(way), 2.5 * radius));
         const wire::Camera camera = looking({0.3 * away * radius, -away * radius, 0.5 * away * radius}, {0, 0, 0},
                                             trial < 3 ? 70 / away : 150 / away, 0.05 * radius, 1000 * radius);
         const ShadowRig rig(alone(modeler::make_sphere(), placed({-radius, -radius, -radius}, 2 * radius), light,
@@ -442,10 +443,10 @@ TEST(Shadows, OfASphereLieOnItsDarkSideAlone) {
         const shape::EyeMatrix m = rig.scene().matrix(0);
         const auto middle = [&](std::size_t r) { return (m.m[r][0] + m.m[r][1] + m.m[r][2]) / 2.0 + m.m[r][3]; };
         for (const Pair& pair : rig.pairs()) {
-          const Vec3 normal = unit(pair.place - Vec3{middle(0), middle(1), middle(2)});
+          const Vec3 normal = unit_vector(pair.place - Vec3{middle(0), middle(1), middle(2)});
           Vec3 to_light{eye_light.vector[0], eye_light.vector[1], eye_light.vector[2]};
           if (light.kind == wire::LightKind::point) to_light = to_light - pair.place;
-          const double cosine = dot(normal, unit(to_light));
+          const double cosine = dot(normal, unit_vector(to_light));
           if (std::abs(cosine) < 0.3) continue;  // facets
           ++(cosine > 0 ? lit : dark);
           ASSERT_EQ(pair.blocked, cosine < 0)

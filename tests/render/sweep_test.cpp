@@ -19,12 +19,12 @@ namespace {
 
 using Place = std::array<double, 3>;
 
-constexpr std::uint32_t kWidth = 200, kHeight = 150;
+constexpr std::uint32_t kSweepWidth = 200, kSweepHeight = 150;
 constexpr double kFloor = 20;  // side of the floor, whose upper side is at z = 0
 
 // Balls that rise and fall while they circle above a floor.
 wire::FilmData circling(std::uint32_t balls, std::uint32_t frames, const wire::Light& light) {
-  FilmMaker maker(kWidth, kHeight, frames);
+  FilmMaker maker(kSweepWidth, kSweepHeight, frames);
   const std::uint32_t box = maker.add_shape(modeler::make_box()), ball = maker.add_shape(modeler::make_sphere());
   const std::uint32_t clay = maker.add_material(kClay);
   maker.add_segment(box, clay, {placed({-kFloor / 2, -kFloor / 2, -kFloor}, kFloor)});
@@ -55,15 +55,15 @@ Place moved(const wire::Matrix& m, const Place& p) {
 
 struct Swept {
   geometry::Sweep sweep;
-  std::vector<std::uint8_t> covered = std::vector<std::uint8_t>(std::size_t{kWidth} * kHeight);  // by pixel
+  std::vector<std::uint8_t> covered = std::vector<std::uint8_t>(std::size_t{kSweepWidth} * kSweepHeight);  // by pixel
 
   Swept(const geometry::Scene& scene, std::uint32_t frames) {
     std::vector<std::uint32_t> all(frames);
     std::iota(all.begin(), all.end(), 0u);
     sweep.begin(scene, all, geometry::ShapeBoxes(scene.film()), [this](const geometry::PictureBounds& bounds) {
       for (std::uint32_t y = bounds.lines.first; y < bounds.lines.last; ++y)
-        std::fill(covered.begin() + y * kWidth + bounds.columns.first,
-                  covered.begin() + y * kWidth + bounds.columns.last, std::uint8_t{1});
+        std::fill(covered.begin() + y * kSweepWidth + bounds.columns.first,
+                  covered.begin() + y * kSweepWidth + bounds.columns.last, std::uint8_t{1});
     });
   }
   bool has_caster_round(const Place& eye) const {
@@ -101,7 +101,7 @@ void expect_bounds(const wire::FilmData& data, std::size_t few, std::size_t most
     return std::array{p.center[0] - p.scale * eye[0] / eye[2], p.center[1] + p.scale * eye[1] / eye[2]};
   };
   const auto is_in_picture = [](const auto& at) {
-    return 0 <= at[0] && at[0] < kWidth && 0 <= at[1] && at[1] < kHeight;
+    return 0 <= at[0] && at[0] < kSweepWidth && 0 <= at[1] && at[1] < kSweepHeight;
   };
   std::size_t shadows = 0;
   for (std::uint32_t frame = 0; frame < data.settings.frames; frame += 1 + data.settings.frames / 11)
@@ -112,7 +112,7 @@ void expect_bounds(const wire::FilmData& data, std::size_t few, std::size_t most
         const Place eye = moved(to_eye, world);
         ASSERT_TRUE(swept.has_caster_round(eye)) << "segment " << s << ", frame " << frame;
         if (const auto at = pixel(eye); is_in_picture(at)) {
-          ASSERT_EQ(swept.covered[static_cast<std::size_t>(at[1]) * kWidth + static_cast<std::size_t>(at[0])], 1);
+          ASSERT_EQ(swept.covered[static_cast<std::size_t>(at[1]) * kSweepWidth + static_cast<std::size_t>(at[0])], 1);
         }
         Place to_light{light.vector[0], light.vector[1], light.vector[2]};
         if (light.kind != wire::LightKind::directional)
@@ -143,8 +143,8 @@ TEST(Sweep, IsRoundMovingPartsAndTheirShadows) {
 
 // As what moves there is small, and its shadow near it.
 TEST(Sweep, LeavesOutMostOfThePicture) {
-  const FilmBlock block(corner(kWidth, kHeight, 4));
-  wire::FilmData data = corner(kWidth, kHeight, 4);
+  const FilmBlock block(corner(kSweepWidth, kSweepHeight, 4));
+  wire::FilmData data = corner(kSweepWidth, kSweepHeight, 4);
   data.lights.front().casts = 1;
   const FilmBlock casting(data);
   for (const FilmBlock* film : {&block, &casting}) {
@@ -152,7 +152,7 @@ TEST(Sweep, LeavesOutMostOfThePicture) {
     scene.set_interval(0);
     const Swept swept(scene, 4);
     EXPECT_GT(swept.sweep.lines().count(), 2u);
-    EXPECT_LT(swept.sweep.lines().count(), kHeight / 6);
+    EXPECT_LT(swept.sweep.lines().count(), kSweepHeight / 6);
     const auto covered = static_cast<std::size_t>(std::ranges::count(swept.covered, std::uint8_t{1}));
     EXPECT_GT(covered, 8u);
     EXPECT_LT(covered, swept.covered.size() / 50);
@@ -160,14 +160,14 @@ TEST(Sweep, LeavesOutMostOfThePicture) {
 }
 
 TEST(Sweep, WhereNothingStandsStillNothingIsCovered) {
-  const wire::FilmData data = flight(kWidth, kHeight, 3);
+  const wire::FilmData data = flight(kSweepWidth, kSweepHeight, 3);
   const FilmBlock block(data);
   geometry::Scene scene(block.view());
   scene.set_interval(0);
   const Swept swept(scene, 3);
   EXPECT_EQ(std::ranges::count(swept.covered, std::uint8_t{1}), 0);
   EXPECT_TRUE(swept.sweep.casters().empty());
-  EXPECT_EQ(swept.sweep.lines().count(), kHeight);
+  EXPECT_EQ(swept.sweep.lines().count(), kSweepHeight);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 #include "host/render/trace/trace_file.h"
 #include "node/frame_report.h"
 #include "tests/hal/counting_backend.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 
@@ -27,18 +27,18 @@ using nlohmann::json;
 using trace::Trace;
 using Kind = messages::Event::Kind;
 
-constexpr std::uint32_t kFrames = 9, kInterval = 3;
+constexpr std::uint32_t kTracedFrames = 9, kInterval = 3;
 
-struct Case {
+struct TracedCase {
   int nodes;
   std::uint64_t memory;  // bytes a frame; little makes several passes
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.nodes << " nodes, " << c.memory << " bytes"; }
+void PrintTo(const TracedCase& c, std::ostream* out) { *out << c.nodes << " nodes, " << c.memory << " bytes"; }
 
-class Tracing : public testing::TestWithParam<Case> {
+class Tracing : public testing::TestWithParam<TracedCase> {
  protected:
-  Tracing() : block_(crowd(160, 120, kFrames, kInterval)) {
+  Tracing() : block_(crowd(160, 120, kTracedFrames, kInterval)) {
     RunOptions options;
     options.nodes = GetParam().nodes;
     options.memory = GetParam().memory;
@@ -57,7 +57,7 @@ class Tracing : public testing::TestWithParam<Case> {
 
   int host() const { return GetParam().nodes; }
   json written() const {
-    const sinks::TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     trace::write_trace(folder / "trace.json", {"crowd", "threads"}, trace_);
     std::ifstream file(folder / "trace.json");
     return json::parse(file);
@@ -72,7 +72,7 @@ class Tracing : public testing::TestWithParam<Case> {
 
 TEST_P(Tracing, PicturesAreTheSame) {
   expect_same(traced_, plain_, block_.view().settings(), "traced");
-  EXPECT_EQ(traced_.frames.size(), kFrames);
+  EXPECT_EQ(traced_.frames.size(), kTracedFrames);
   EXPECT_EQ(trace_.left_out(), 0u);
   EXPECT_EQ(trace_.clock_error(), 0) << "all share one clock";
 }
@@ -110,7 +110,8 @@ TEST_P(Tracing, PhasesAddUpToTheReport) {
     EXPECT_EQ(of(wire::Phase::inbetween).first, keyframe ? 0 : 1);
   }
   EXPECT_EQ(passes > 1, GetParam().memory < (1 << 20)) << "short memory makes several passes";
-  EXPECT_EQ(frames, kFrames / kInterval * static_cast<std::size_t>(host()) + kFrames - kFrames / kInterval);
+  EXPECT_EQ(frames,
+            kTracedFrames / kInterval * static_cast<std::size_t>(host()) + kTracedFrames - kTracedFrames / kInterval);
 }
 
 // Messages from when recording began, by what a backend counts. Sums with nothing in them are the gsync before.
@@ -218,17 +219,17 @@ TEST_P(Tracing, CountersBalance) {
   std::set<std::string> written_frames;
   for (const json& event : trace.at("traceEvents"))
     if (event.at("name") == "write") written_frames.insert(event.at("args").at("frame").dump());
-  EXPECT_EQ(written_frames.size(), kFrames);
+  EXPECT_EQ(written_frames.size(), kTracedFrames);
 }
 
 INSTANTIATE_TEST_SUITE_P(Runs, Tracing,
-                         testing::Values(Case{1, 256 << 20}, Case{2, 256 << 20}, Case{3, 256 << 20}, Case{5, 256 << 20},
-                                         Case{3, 340'000}));
+                         testing::Values(TracedCase{1, 256 << 20}, TracedCase{2, 256 << 20}, TracedCase{3, 256 << 20},
+                                         TracedCase{5, 256 << 20}, TracedCase{3, 340'000}));
 
 class TracingShadows : public testing::Test {
  protected:
   TracingShadows() {
-    wire::FilmData film = crowd(160, 120, kFrames, kInterval);
+    wire::FilmData film = crowd(160, 120, kTracedFrames, kInterval);
     film.lights.front().casts = 1;
     block_.emplace(film);
   }

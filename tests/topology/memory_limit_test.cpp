@@ -1,5 +1,6 @@
 // Limits that made-up /proc and /sys trees give, and that this process sets.
 #include "topology/memory_limit.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -20,19 +21,13 @@ constexpr std::uint64_t kGiB = 1024 * kMiB;
 
 class MemoryLimitTest : public testing::Test {
  protected:
-  MemoryLimitTest() {
-    std::string name = (fs::temp_directory_path() / "mars-test-XXXXXX").string();
-    root_ = mkdtemp(name.data());
-  }
-  ~MemoryLimitTest() override { fs::remove_all(root_); }
-
   void write(const std::string& file, const std::string& text) {
     fs::create_directories((root_ / file).parent_path());
     std::ofstream(root_ / file) << text << '\n';
   }
-  std::uint64_t together() const { return memory_limit(root_).together; }
+  std::uint64_t together() const { return memory_limit(root_.path()).together; }
 
-  fs::path root_;
+  const test::TemporaryFolder root_;
 };
 
 TEST_F(MemoryLimitTest, NothingThereIsNoLimit) { EXPECT_EQ(together(), 0u); }
@@ -92,7 +87,7 @@ TEST_F(MemoryLimitTest, TheProcessMayHaveLimitsOfItsOwn) {
   const rlim_t addresses = process_memory().addresses + 9 * kGiB;
   const Limited most_addresses(RLIMIT_AS, addresses), most_data(RLIMIT_DATA, 7 * kGiB);
   write("proc/self/statm", "9 5 4 1 0 3 0");
-  const MemoryLimit limit = memory_limit(root_);
+  const MemoryLimit limit = memory_limit(root_.path());
   const auto page = static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   EXPECT_EQ(limit, (MemoryLimit{0, {addresses, 7 * kGiB}, {9 * page, 3 * page}}));
   EXPECT_EQ(limit.least(), 7 * kGiB);

@@ -1,6 +1,7 @@
 #include "host/content/modeler/control_net.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -9,8 +10,13 @@ namespace {
 
 constexpr double kNothing = 1e-9;  // what weighs less leaves a mean
 
+bool is_ascending(std::span<const Term> terms) {
+  return std::ranges::is_sorted(terms, std::ranges::less_equal(), &Term::point);
+}
+
 // Leaves each point once.
 std::vector<Term> merged(std::vector<Term> terms) {
+  if (is_ascending(terms)) return terms;
   std::ranges::stable_sort(terms, {}, &Term::point);
   std::vector<Term> sum;
   for (const Term& term : terms) {
@@ -22,9 +28,22 @@ std::vector<Term> merged(std::vector<Term> terms) {
   return sum;
 }
 
-// Leaves each point once, and what is left weighs 1.
-Mean summed(std::vector<Term> terms) {
-  Mean sum = merged(std::move(terms));
+// Puts the sum of the terms and of a share, both ascending, into `sum`.
+void add_share(std::span<const Term> terms, const Share& share, std::vector<Term>& sum) {
+  sum.clear();
+  sum.reserve(terms.size() + share.mean.size());
+  auto own = terms.begin();
+  for (const Term& term : share.mean) {
+    while (own != terms.end() && own->point < term.point) sum.push_back(*own++);
+    double weight = share.weight * term.weight;
+    if (own != terms.end() && own->point == term.point) weight += (own++)->weight;
+    sum.push_back({term.point, weight});
+  }
+  sum.insert(sum.end(), own, terms.end());
+}
+
+// Leaves what weighs enough, which then weighs 1; `sum` is ascending.
+Mean normalized(Mean sum) {
   double all = 0;
   std::erase_if(sum, [](const Term& term) { return term.weight < kNothing; });
   for (const Term& term : sum) all += term.weight;
@@ -54,13 +73,15 @@ std::vector<std::uint32_t> first_of_same(const ControlNet& net) {
 }  // namespace
 
 std::vector<Term> terms_of(std::span<const Share> shares) {
-  std::vector<Term> terms;
-  for (const Share& share : shares)
-    for (const Term& term : share.mean) terms.push_back({term.point, share.weight * term.weight});
-  return merged(std::move(terms));
+  std::vector<Term> terms, sum;
+  for (const Share& share : shares) {
+    add_share(terms, share, sum);
+    terms.swap(sum);
+  }
+  return terms;
 }
 
-Mean sum_of(std::span<const Share> shares) { return summed(terms_of(shares)); }
+Mean sum_of(std::span<const Share> shares) { return normalized(terms_of(shares)); }
 
 std::vector<wire::Patch> patches_of(const MeanPatches& means, std::span<const glm::dvec3> points) {
   std::vector<glm::dvec3> places;
@@ -80,7 +101,7 @@ ControlNet control_net(const MeanPatches& means, std::span<const glm::dvec3> poi
   const std::vector<std::uint32_t> first = first_of_same(net);
   for (Mean mean : means.means) {
     for (Term& term : mean) term.point = first[term.point];
-    mean = summed(std::move(mean));
+    mean = normalized(merged(std::move(mean)));
     net.stencils.push_back({static_cast<std::uint32_t>(net.terms.size()), static_cast<std::uint32_t>(mean.size())});
     for (const Term& term : mean) net.terms.push_back({term.point, static_cast<float>(term.weight)});
   }
@@ -89,9 +110,11 @@ ControlNet control_net(const MeanPatches& means, std::span<const glm::dvec3> poi
 
 std::vector<glm::dvec3> means_of(const ControlNet& net, std::span<const glm::dvec3> moved) {
   std::vector<glm::dvec3> means;
+  means.reserve(net.stencils.size());
   for (const wire::Stencil& stencil : net.stencils) {
-    glm::dvec3& mean = means.emplace_back(0, 0, 0);
+    glm::dvec3 mean(0, 0, 0);
     for (const wire::StencilTerm& term : net.terms_of(stencil)) mean += double{term.weight} * moved[term.point];
+    means.push_back(mean);
   }
   return means;
 }

@@ -14,7 +14,7 @@
 namespace mars::commands {
 namespace {
 
-constexpr const char* kAfterwards = R"(Prints what it read from the file, what it made, and what it left out. More:
+constexpr const char* kAfterImportHelp = R"(Prints what it read from the file, what it made, and what it left out. More:
 docs/importing.md, docs/motions.md.
 
 Names the limbs of figures, which then walk, sit and wave. Where it finds others
@@ -144,7 +144,7 @@ void add_import(cli::Command app) {
       .check(number_from(0, 180, "no such angle: write degrees from 0 to 180"))
       .type("DEGREES");
   command.add_flag("--force", options->force, "Replace a model file that is there already. Example: --force");
-  command.footer(kAfterwards);
+  command.footer(kAfterImportHelp);
   command.runs([options, files] {
     options->from = files->front();
     options->more.assign(files->begin() + 1, files->end());

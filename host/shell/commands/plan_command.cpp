@@ -70,7 +70,7 @@ struct Planned {
   }
 };
 
-void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
+void warn_planner(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
 
 // Machines that would render: this one, which is calibrated first, unless the options name others.
 experiments::Platform platform_of(const options::RenderOptions& options, const NodesCode& code) {
@@ -133,7 +133,7 @@ forecast::FilmCounts counts_of(const film::CompiledFilm& film, const std::vector
 
 Planned plan(PlanWords words, const NodesCode& code) {
   options::RenderOptions& options = words.options;
-  const film::CompiledFilm film = job::load_drawn_film_of(options, warn);
+  const film::CompiledFilm film = job::load_drawn_film_of(options, warn_planner);
   const wire::PackedFilm view = film.view();
   experiments::Platform platform = platform_of(options, code);
   platform.memory = node_memory(options, platform);
@@ -171,7 +171,7 @@ Planned plan(PlanWords words, const NodesCode& code) {
     planned.walls.push_back(forecast::explain(counts, tasks, setting, planned.by_nodes[i], threads));
   }
   // An interval says it, too.
-  if (!platform.doubt.empty() && !planned.asked().spread) warn(experiments::doubt_text(platform));
+  if (!platform.doubt.empty() && !planned.asked().spread) warn_planner(experiments::doubt_text(platform));
   const farm::HostMemory& host = planned.asked().run.host_memory;
   planned.slots = host.credits * static_cast<double>(wire::slot_bytes(host.format));
   planned.machine = machine_bytes(planned, film);

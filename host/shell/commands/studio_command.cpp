@@ -10,7 +10,8 @@
 namespace mars::commands {
 namespace {
 
-constexpr const char* kAfterwards = R"(Prints a link. Everybody who has the link can work in the studio, but only on
+constexpr const char* kAfterStudioHelp =
+    R"(Prints a link. Everybody who has the link can work in the studio, but only on
 this machine. To use a browser of another machine, start there
 ssh -L 8640:localhost:8640 MACHINE, then open the link there.
 Ctrl-C ends the studio. More: docs/studio.md.
@@ -57,7 +58,7 @@ void add_studio(cli::Command app) {
   add_server(command, *settings);
   command.add_flag("--no-browser", *no_browser, "Open no browser. Example: --no-browser");
   options::add_render_options(command, settings->renderer, options::Program::studio);
-  command.footer(kAfterwards + std::string(cli::kExitCodes));
+  command.footer(kAfterStudioHelp + std::string(cli::kExitCodes));
   command.runs([settings, no_browser] {
     settings->browser = !*no_browser;
     settings->page = child::own_file().parent_path().parent_path() / "share" / "mars" / "studio";

@@ -99,13 +99,13 @@ void add_job_options(cli::Command command, SubmitWords& words) {
   command.add_flag("--print", words.print, "Print the batch script; submit nothing. Example: --print");
 }
 
-void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
+void warn_submitter(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
 
 // What is wrong with the film shows now, not when the job begins. Where the job is submitted, the film lies in the
 // folder from then on, for every start of the job to take, whatever becomes of the film's files.
 film::CompiledFilm film_of(const SubmitWords& words) {
   const options::RenderOptions& render = words.render;
-  const auto compile = [&] { return job::load_film_of(render, warn); };
+  const auto compile = [&] { return job::load_film_of(render, warn_submitter); };
   const resume::Wish wish{.folder = render.folder,
                           .film = render.film,
                           .options = options::film_arguments(render),
@@ -115,7 +115,7 @@ film::CompiledFilm film_of(const SubmitWords& words) {
                           .kept_film = render.kept_film,
                           .renders = false};
   if (words.print) return resume::film_for(wish, compile);
-  resume::Opened opened = resume::open(wish, compile, {.warn = warn});
+  resume::Opened opened = resume::open(wish, compile, {.warn = warn_submitter});
   if (!opened.changed.empty()) std::cout << opened.changed << '\n';
   return std::move(opened.film);
 }
@@ -130,8 +130,8 @@ batch::ArrayParts parts_of(const SubmitWords& words, const film::CompiledFilm& f
   for (const farm::Task& task : tasks) works.push_back(farm::rough_work(view, view.intervals()[task.interval]));
   batch::ArrayParts parts = batch::array_parts(tasks, works, words.parts);
   if (parts.frames.size() < words.parts)
-    warn(document::counted(parts.frames.size(), "job") + " instead of " + std::to_string(words.parts) +
-         ": with so few frames more would not be faster");
+    warn_submitter(document::counted(parts.frames.size(), "job") + " instead of " + std::to_string(words.parts) +
+                   ": with so few frames more would not be faster");
   return parts;
 }
 

@@ -74,7 +74,7 @@ void refuse_parts(const options::RenderOptions& options) {
            "leave out --ocio; or render with --format exr, and then mars play --ocio");
 }
 
-resume::Opened open(const options::RenderOptions& options) {
+resume::Opened open_folder_of(const options::RenderOptions& options) {
   refuse_parts(options);
   return resume::open({options.folder, options.film, options::film_arguments(options), options::form_of(options),
                        options.frames, options.overwrite, options.kept_film},
@@ -98,7 +98,7 @@ options::RenderOptions faces_of(options::RenderOptions options) {
 }
 
 FilmPanorama::FilmPanorama(const options::RenderOptions& options, Display& display)
-    : options_(options), display_(display), opened_(open(options)) {
+    : options_(options), display_(display), opened_(open_folder_of(options)) {
   const auto left = static_cast<std::uint32_t>(opened_.frames.size());
   if (left < opened_.asked || !opened_.changed.empty())
     display_.print(resumed_text({opened_.asked - left, opened_.asked, opened_.changed}));

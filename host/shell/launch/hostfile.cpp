@@ -18,7 +18,7 @@ constexpr std::uint32_t kMostSlots = 999999;
 constexpr std::size_t kLongestName = 255;     // bytes
 constexpr std::uintmax_t kLargest = 1 << 26;  // bytes
 constexpr const char* kForm = "write a line a host, like: n1 slots=4";
-constexpr std::string_view kSpace = " \t\v\f";
+constexpr std::string_view kHostfileSpace = " \t\v\f";
 constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-.,:*@+=";
 
 constexpr std::array<std::string_view, 3> kSlots = {"slots", "cpu", "count"};
@@ -62,7 +62,7 @@ class Line {
     text = text.substr(0, std::min(text.find('#'), text.find("//")));
     if (text.ends_with('\r')) refuse("ends as a line of Windows", "convert the file: dos2unix FILE");
     for (const char letter : text)
-      if (kSpace.find(letter) == std::string_view::npos && kLetters.find(letter) == std::string_view::npos)
+      if (kHostfileSpace.find(letter) == std::string_view::npos && kLetters.find(letter) == std::string_view::npos)
         refuse("has a character that no hostfile has: '" + std::string(1, letter) + "'", kForm);
     split(text);
   }
@@ -91,7 +91,7 @@ class Line {
   // At blanks; "=" is a word of its own.
   void split(std::string_view text) {
     while (true) {
-      text.remove_prefix(std::min(text.find_first_not_of(kSpace), text.size()));
+      text.remove_prefix(std::min(text.find_first_not_of(kHostfileSpace), text.size()));
       if (text.empty()) return;
       const std::size_t end = text.front() == '=' ? 1 : std::min(text.find_first_of(" \t\v\f="), text.size());
       words_.emplace_back(text.substr(0, end));

@@ -6,7 +6,7 @@
 namespace mars::launch {
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n\v\f";
+constexpr std::string_view kTextSpace = " \t\r\n\v\f";
 
 }  // namespace
 
@@ -23,10 +23,10 @@ bool TextReader::skip(std::string_view words) {
   return true;
 }
 
-void TextReader::skip_space() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kSpace), rest_.size())); }
+void TextReader::skip_space() { rest_.remove_prefix(std::min(rest_.find_first_not_of(kTextSpace), rest_.size())); }
 
 std::optional<std::string> TextReader::word() {
-  const std::string_view word = rest_.substr(0, rest_.find_first_of(kSpace));
+  const std::string_view word = rest_.substr(0, rest_.find_first_of(kTextSpace));
   rest_.remove_prefix(word.size());
   if (word.size() > kLongestWord) return std::nullopt;
   return std::string(word);
@@ -43,7 +43,7 @@ std::optional<std::uint32_t> TextReader::number() {
 std::string on_one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {
-    const bool space = kSpace.find(c) != std::string_view::npos;
+    const bool space = kTextSpace.find(c) != std::string_view::npos;
     if (!space || (!line.empty() && line.back() != ' ')) line += space ? ' ' : c;
   }
   if (line.ends_with(' ')) line.pop_back();

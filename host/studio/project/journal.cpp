@@ -26,8 +26,8 @@ namespace {
 
 using document::Json;
 
-constexpr std::size_t kLargestStart = std::size_t{4} << 20;  // a longer text is known by its checksum alone
-constexpr std::size_t kLongest = 3 * History::kMostBytes;    // bytes of a journal
+constexpr std::size_t kLargestStart = std::size_t{4} << 20;       // a longer text is known by its checksum alone
+constexpr std::size_t kLongestJournal = 3 * History::kMostBytes;  // bytes of a journal
 constexpr int kFormat = 1;
 
 std::string checksum_of(const std::string& text) { return document::checksum_of(std::as_bytes(std::span(text))); }
@@ -200,7 +200,7 @@ Journal::Journal(const std::filesystem::path& file)
 std::optional<History> Journal::read(const std::string& text) try {
   begin_ = true;
   const document::UnrecordedReads apart;  // it is none of the files that make the film
-  const std::optional<std::string> lines = document::read_file_if_there(path_, 2 * kLongest);
+  const std::optional<std::string> lines = document::read_file_if_there(path_, 2 * kLongestJournal);
   if (!lines) return std::nullopt;
   Replay replay;
   for (std::size_t at = 0; at < lines->size();) {

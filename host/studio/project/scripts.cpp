@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t kLongest = 48 * 1024;  // bytes
+constexpr std::uintmax_t kLongestScript = 48 * 1024;  // bytes
 constexpr std::size_t kMost = 100;
 
 }  // namespace
@@ -30,7 +30,7 @@ Json Scripts::list() const {
   for (const fs::directory_entry& entry : fs::directory_iterator(beside_, ignored)) try {
       const std::string name = checked_script_name(entry.path().filename().string());
       const fs::path path = document::path_below(folder_, entry.path().string());
-      if (texts.size() < kMost) texts[name] = document::read_file(path, kLongest);
+      if (texts.size() < kMost) texts[name] = document::read_file(path, kLongestScript);
     } catch (const Failure&) {
       continue;  // no script, or none for pages
     }

@@ -61,7 +61,7 @@ std::string distance_of(std::uint32_t frame, std::uint32_t now) {
   return std::to_string(std::int64_t{frame} - std::int64_t{now});
 }
 
-bool has_key(const animator::Channel<glm::dvec3>& channel, std::uint32_t frame) {
+bool is_key(const animator::Channel<glm::dvec3>& channel, std::uint32_t frame) {
   return channel.size() > 1 && std::ranges::binary_search(channel, frame, {}, &animator::Key<glm::dvec3>::frame);
 }
 
@@ -196,7 +196,7 @@ void Ghosts::add_trail(const GhostFrames& frames, const Selection& selection, co
     if (!pixel) continue;
     Handle tick{"trail", "trail", {*pixel}, "", distance_of(frame, project_.frame())};
     tick.fine = false;
-    tick.selected = has_key(channel, frame);
+    tick.selected = is_key(channel, frame);
     ticks.push_back(std::move(tick));
   }
   if (std::ranges::all_of(way, [&](const glm::dvec3& place) { return place == way.front(); })) return;

@@ -13,13 +13,13 @@ namespace mars::studio {
 namespace {
 
 constexpr double kRingPixels[] = {84, 72, 60};  // radii of x, y, z
-constexpr double kArrowPixels = 80;
+constexpr double kHandleArrowPixels = 80;
 constexpr double kTickPixels = 9;   // of a limit, each way
 constexpr double kStepDegrees = 5;  // of an arc
 constexpr double kReachPixels = 7;  // from a line
 constexpr double kNearPixels = 9;   // from a place, which is before lines
-constexpr std::size_t kMostPoints = 4000;
-constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr std::size_t kMostPointHandles = 4000;
+constexpr const char* kAxisNames[] = {"x", "y", "z"};
 
 glm::dvec3 unit(int axis) {
   glm::dvec3 vector(0);
@@ -32,9 +32,9 @@ std::string shown_angle(double degrees) {
   return document::shown(rounded) + "\u00b0";
 }
 
-class Maker {
+class HandleMaker {
  public:
-  Maker(const Project& project, const Selection& selection, const Screen& screen)
+  HandleMaker(const Project& project, const Selection& selection, const Screen& screen)
       : project_(project), selection_(selection), screen_(screen) {}
 
   std::vector<Handle> make(Tool tool) {
@@ -92,7 +92,7 @@ class Maker {
     std::vector<glm::dvec3> arc;
     const int steps = std::max(1, static_cast<int>(std::ceil((to - from) / kStepDegrees)));
     for (int step = 0; step <= steps; ++step) arc.push_back(at(from + (to - from) * step / steps, radius));
-    const std::string name = kAxes[number], id = "ring:" + name;
+    const std::string name = kAxisNames[number], id = "ring:" + name;
     add_line({id, "ring", {}, name, "", Grip{Grip::What::ring, number}}, arc);
     const double tick = kTickPixels * pixel;
     if (!whole)
@@ -115,10 +115,11 @@ class Maker {
   }
 
   void add_arrows(const glm::dvec3& from, const glm::dmat3& ways) {
-    const double length = kArrowPixels / screen_.scale_at(from);
+    const double length = kHandleArrowPixels / screen_.scale_at(from);
     for (int axis = 0; axis < 3; ++axis)
-      add_line({std::string("arrow:") + kAxes[axis], "arrow", {}, kAxes[axis], "", Grip{Grip::What::arrow, axis}},
-               {from, from + length * ways[axis]});
+      add_line(
+          {std::string("arrow:") + kAxisNames[axis], "arrow", {}, kAxisNames[axis], "", Grip{Grip::What::arrow, axis}},
+          {from, from + length * ways[axis]});
     add_place({"plane", "point", {}, "", "", Grip{Grip::What::plane}}, from);
   }
 
@@ -139,7 +140,7 @@ class Maker {
       for (int side = 0; side < 2; ++side) {
         glm::dvec3 part(0.5);
         part[axis] = side;
-        Handle handle{std::string("face:") + kAxes[axis] + (side == 0 ? "-" : "+"), "box", {}, kAxes[axis]};
+        Handle handle{std::string("face:") + kAxisNames[axis] + (side == 0 ? "-" : "+"), "box", {}, kAxisNames[axis]};
         handle.grip = Grip{Grip::What::face, axis, side};
         add_place(std::move(handle), at(part));
       }
@@ -155,7 +156,7 @@ class Maker {
     const modeler::Shape& shape = model.shapes[segment->shape];
     std::set<std::array<float, 3>> seen;
     const auto add = [&](std::size_t patch, std::size_t number, std::size_t columns, const auto& point) {
-      if (seen.size() >= kMostPoints || !seen.insert(point).second) return;
+      if (seen.size() >= kMostPointHandles || !seen.insert(point).second) return;
       Handle handle{"point:" + std::to_string(patch) + ":" + std::to_string(number), "point", {}};
       handle.grip = Grip{Grip::What::point, 0, 0, patch, number % columns, number / columns};
       const wire::Matrix matrix = matrix_of_point(model, *selection_.joint, state, *handle.grip);
@@ -223,7 +224,7 @@ std::optional<modeler::Axes> segment_frame_of(const Project& project, const Sele
 }
 
 std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, const Screen& screen) {
-  return Maker(project, selection, screen).make(tool);
+  return HandleMaker(project, selection, screen).make(tool);
 }
 
 double ring_pixels(int axis) { return kRingPixels[axis]; }

@@ -12,11 +12,11 @@
 namespace mars::studio {
 namespace {
 
-constexpr double kBulbPixels = 9, kRayPixels = 15, kBodyPixels = 22, kArrowPixels = 60;
+constexpr double kBulbPixels = 9, kRayPixels = 15, kBodyPixels = 22, kMarkArrowPixels = 60;
 constexpr double kSunDistance = 1.5;  // radii of the subject
 constexpr int kCircleSteps = 36;
 constexpr double kMostShownAngle = 170;  // degrees, of a cone or field of view that is shown
-constexpr const char* kAxes[] = {"x", "y", "z"};
+constexpr const char* kMarkAxisNames[] = {"x", "y", "z"};
 
 double half_width(const MarkState& state) {
   if (state.height > 0) return state.height / 2;
@@ -69,9 +69,9 @@ MarkState light_state(const animator::LightMotion& light, const Moments& moments
   return state;
 }
 
-class Maker {
+class MarkMaker {
  public:
-  Maker(const Mark& mark, const MarkState& state, bool selected, const Screen& screen)
+  MarkMaker(const Mark& mark, const MarkState& state, bool selected, const Screen& screen)
       : mark_(mark),
         state_(state),
         screen_(screen),
@@ -187,12 +187,12 @@ class Maker {
   }
 
   void add_arrows(const char* id, const glm::dvec3& from, bool aim) {
-    const double length = kArrowPixels / screen_.scale_at(from);
+    const double length = kMarkArrowPixels / screen_.scale_at(from);
     for (int axis = 0; axis < 3; ++axis) {
       glm::dvec3 to = from;
       to[axis] += length;
       for (Polyline& line : screen_.polylines({from, to})) {
-        Handle arrow{std::string(id) + kAxes[axis], "arrow", std::move(line), kAxes[axis]};
+        Handle arrow{std::string(id) + kMarkAxisNames[axis], "arrow", std::move(line), kMarkAxisNames[axis]};
         arrow.grip = Grip{.what = Grip::What::arrow, .axis = axis, .mark = mark_, .aim = aim};
         handles_.push_back(std::move(arrow));
       }
@@ -243,7 +243,7 @@ std::vector<Handle> marks_of(const Project& project, const Moments& moments, con
   for (const Mark& mark : marks) {
     const MarkState state = state_of(project, moments, mark);
     auto made =
-        Maker(mark, state, selection.mark == mark, screen).make(film.width * film.pixel_aspect / film.height, tool);
+        MarkMaker(mark, state, selection.mark == mark, screen).make(film.width * film.pixel_aspect / film.height, tool);
     std::ranges::move(made, std::back_inserter(handles));
   }
   return handles;

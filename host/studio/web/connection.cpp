@@ -1,6 +1,6 @@
 #include "host/studio/web/connection.h"
 
-#include <boost/asio/ssl/stream.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/http/buffer_body.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -8,13 +8,13 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "hal/failure/explain.h"
 #include "host/studio/web/page_files.h"
-#include "host/studio/web/streams.h"
+#include "host/studio/web/page_socket.h"
+#include "host/studio/web/stream.h"
 
 namespace mars::web {
 namespace {
@@ -34,22 +34,17 @@ Request request_of(const HttpRequest& request) {
 }
 
 // Requests one after another, until one asks for a WebSocket.
-template <typename Stream>
-class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<Stream>> {
+class Visit final : public Newcomer, public std::enable_shared_from_this<Visit> {
  public:
   Visit(Stream stream, Site& site, std::unique_ptr<Crowd::Place> place)
       : stream_(std::move(stream)), site_(site), place_(std::move(place)) {}
 
   void begin() {
     place_->may_give_way([this] { beast::get_lowest_layer(stream_).close(); });
-    if constexpr (std::is_same_v<Stream, Tls>) {
-      beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
-      stream_.async_handshake(asio::ssl::stream_base::server, [self = this->shared_from_this()](Error error) {
-        if (!error) self->read();
-      });
-    } else {
-      read();
-    }
+    beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
+    stream_.shake_hands(Done([self = shared_from_this()](Error error, std::size_t) {
+      if (!error) self->read();
+    }));
   }
 
   void answer(bool has_room) override {
@@ -64,7 +59,7 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
     parser_->header_limit(kMostHeader);
     parser_->body_limit(std::numeric_limits<std::uint64_t>::max());  // bodies are taken of uploads alone, in pieces
     beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
-    http::async_read_header(stream_, buffer_, *parser_, [self = this->shared_from_this()](Error error, std::size_t) {
+    http::async_read_header(stream_, buffer_, *parser_, [self = shared_from_this()](Error error, std::size_t) {
       if (error == http::error::end_of_stream) return self->end();
       if (error == http::error::header_limit) return self->refuse({431, "The request's header is too long.\n"});
       if (error.category() == make_error_code(http::error::bad_method).category())
@@ -86,7 +81,7 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
       return write(answer_file(site_.folder(), path_of(asked.target), asked.known), request.keep_alive());
     if (!beast::websocket::is_upgrade(request)) return refuse(for_no_socket(asked));
     if (const Refusal refusal = site_.gate().check_socket(asked); refusal.status != 0) return refuse(refusal);
-    if (!site_.has_room()) return site_.wait_for_room(this->shared_from_this());
+    if (!site_.has_room()) return site_.wait_for_room(shared_from_this());
     answer(true);
   }
 
@@ -125,7 +120,7 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
     body_->get().body().data = piece_.data();
     body_->get().body().size = piece_.size();
     beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
-    http::async_read_some(stream_, buffer_, *body_, [self = this->shared_from_this()](Error error, std::size_t) {
+    http::async_read_some(stream_, buffer_, *body_, [self = shared_from_this()](Error error, std::size_t) {
       if (error && error != http::error::need_buffer) return self->upload_.reset();
       self->place_->request_came();
       self->passing_on([&] {
@@ -157,7 +152,7 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
     answer_.prepare_payload();
     if (is_head_) answer_.body().clear();  // its length is in the head
     beast::get_lowest_layer(stream_).expires_after(site_.patience().request);
-    http::async_write(stream_, answer_, [self = this->shared_from_this(), keep_alive](Error error, std::size_t) {
+    http::async_write(stream_, answer_, [self = shared_from_this(), keep_alive](Error error, std::size_t) {
       if (error || !keep_alive) return self->end();
       self->read();
     });
@@ -206,11 +201,7 @@ class Visit final : public Newcomer, public std::enable_shared_from_this<Visit<S
 
 void serve_connection(asio::ip::tcp::socket socket, asio::ssl::context* tls, Site& site,
                       std::unique_ptr<Crowd::Place> place) {
-  Plain stream(std::move(socket));
-  if (tls == nullptr)
-    std::make_shared<Visit<Plain>>(std::move(stream), site, std::move(place))->begin();
-  else
-    std::make_shared<Visit<Tls>>(Tls(std::move(stream), *tls), site, std::move(place))->begin();
+  std::make_shared<Visit>(Stream(std::move(socket), tls), site, std::move(place))->begin();
 }
 
 }  // namespace mars::web

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ssl/context.hpp>
 #include <memory>
 
 #include "host/studio/web/crowd.h"
 #include "host/studio/web/site.h"
+
+namespace boost::asio::ssl {
+class context;
+}
 
 namespace mars::web {
 

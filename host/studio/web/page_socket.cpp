@@ -1,9 +1,10 @@
-#include "host/studio/web/streams.h"
+#include "host/studio/web/page_socket.h"
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/buffers_to_string.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 #include <optional>
 #include <string>
 
@@ -20,8 +21,7 @@ namespace beast = boost::beast;
 namespace websocket = beast::websocket;
 using Clock = std::chrono::steady_clock;
 
-template <typename Stream>
-class Socket final : public PageSocket, public std::enable_shared_from_this<Socket<Stream>> {
+class Socket final : public PageSocket, public std::enable_shared_from_this<Socket> {
  public:
   Socket(Stream stream, Site& site, std::unique_ptr<Crowd::Place> place)
       : socket_(std::move(stream)),
@@ -36,7 +36,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     socket_.control_callback([this](websocket::frame_type, beast::string_view) { heard_at_ = Clock::now(); });
     socket_.read_message_max(kMostMessage);
     socket_.auto_fragment(false);
-    socket_.async_accept(request, [self = this->shared_from_this()](Error error) {
+    socket_.async_accept(request, [self = shared_from_this()](Error error) {
       if (!error) self->begin();
     });
   }
@@ -55,7 +55,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
 
   void ask() override {
     if (closing_ || std::exchange(asking_, true)) return;
-    socket_.async_ping({}, [self = this->shared_from_this()](Error) { self->asking_ = false; });
+    socket_.async_ping({}, [self = shared_from_this()](Error) { self->asking_ = false; });
   }
 
   bool was_heard_since(Clock::time_point then) const override { return heard_at_ >= then; }
@@ -64,20 +64,20 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
  private:
   void begin() {
     if (!site_.has_room()) return close(websocket::close_code::try_again_later);
-    number_ = site_.enter(this->shared_from_this());
+    number_ = site_.enter(shared_from_this());
     read();
   }
 
   void close(websocket::close_code code) {
     if (std::exchange(closing_, true)) return;
     timer_.cancel();
-    socket_.async_close(code, [self = this->shared_from_this()](Error) {});
+    socket_.async_close(code, [self = shared_from_this()](Error) {});
   }
 
   // Whoever tells pages something may be going through them now.
   void end_later() {
     closing_ = true;
-    asio::post(socket_.get_executor(), [self = this->shared_from_this()] { self->end(); });
+    asio::post(socket_.get_executor(), [self = shared_from_this()] { self->end(); });
   }
 
   // The page is gone, or does not deserve to be kept.
@@ -90,7 +90,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
   }
 
   void read() {
-    socket_.async_read(buffer_, [self = this->shared_from_this()](Error error, std::size_t) {
+    socket_.async_read(buffer_, [self = shared_from_this()](Error error, std::size_t) {
       if (error) return self->end();
       self->heard_at_ = Clock::now();
       self->take();
@@ -104,7 +104,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     if (closing_) return read();  // until the page's close frame
     hear(text);
     pause_.expires_after(rate_.take(Clock::now()));
-    pause_.async_wait([self = this->shared_from_this()](Error error) {
+    pause_.async_wait([self = shared_from_this()](Error error) {
       if (!error) self->read();
     });
   }
@@ -130,7 +130,7 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     outgoing_ = std::move(outgoing->bytes);
     socket_.text(outgoing->is_text);
     socket_.binary(!outgoing->is_text);
-    socket_.async_write(asio::buffer(outgoing_), [self = this->shared_from_this()](Error error, std::size_t) {
+    socket_.async_write(asio::buffer(outgoing_), [self = shared_from_this()](Error error, std::size_t) {
       self->writing_ = false;
       if (error) return self->end();
       self->write();
@@ -151,12 +151,12 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
     const auto due = outbox_.due();
     if (!due) return;
     timer_.expires_at(*due);
-    timer_.async_wait([self = this->shared_from_this()](Error error) {
+    timer_.async_wait([self = shared_from_this()](Error error) {
       if (!error) self->write();
     });
   }
 
-  websocket::stream<Stream> socket_;
+  websocket::stream<Stream, false> socket_;
   asio::steady_timer timer_, pause_;
   Site& site_;
   std::unique_ptr<Crowd::Place> place_;
@@ -171,12 +171,8 @@ class Socket final : public PageSocket, public std::enable_shared_from_this<Sock
 
 }  // namespace
 
-template <typename Stream>
 void serve_page(Stream stream, const HttpRequest& request, Site& site, std::unique_ptr<Crowd::Place> place) {
-  std::make_shared<Socket<Stream>>(std::move(stream), site, std::move(place))->accept(request);
+  std::make_shared<Socket>(std::move(stream), site, std::move(place))->accept(request);
 }
-
-template void serve_page(Plain, const HttpRequest&, Site&, std::unique_ptr<Crowd::Place>);
-template void serve_page(Tls, const HttpRequest&, Site&, std::unique_ptr<Crowd::Place>);
 
 }  // namespace mars::web

@@ -134,10 +134,10 @@ def arguments():
 
 
 def main():
-    wanted, folder = arguments(), pathlib.Path(tempfile.mkdtemp(prefix="mars-deaths-"))
+    wanted = arguments()
     chance, wrongs, died, again = random.Random(wanted.seed), 0, 0, 0
-    try:
-        deaths = Deaths(wanted.build, folder, wanted.apart)
+    with tempfile.TemporaryDirectory(prefix="mars-deaths-", ignore_cleanup_errors=True) as folder:
+        deaths = Deaths(wanted.build, pathlib.Path(folder), wanted.apart)
         for number in range(1, wanted.count + 1):
             death = (apart.random_death if wanted.apart else random_death)(chance)
             wrong, happened, restarts, seconds = deaths.render(death)
@@ -145,8 +145,6 @@ def main():
             print(f"{number:4} {seconds:5.1f} s  {death}: {'begun again' if restarts else 'went on'}"
                   + ("" if happened else ", had ended before")
                   + (f"\n     WRONG: {wrong}" if wrong else ""), flush=True)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
     print(f"seed {wanted.seed}: {wanted.count} renderings, {died} deaths, {again} jobs begun again, {wrongs} wrong")
     return 1 if wrongs else 0
 

@@ -2,7 +2,6 @@
 import concurrent.futures
 import os
 import pathlib
-import shutil
 import signal
 import sys
 import tempfile
@@ -30,9 +29,8 @@ def is_stopped(process):
 @unittest.skipUnless(apart.is_possible(), "no user namespaces here")
 class Apart(unittest.TestCase):
     def deaths(self):
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-test-"))
-        self.addCleanup(shutil.rmtree, folder, ignore_errors=True)
-        return Deaths(BUILD, folder, is_apart=True)
+        folder = self.enterContext(tempfile.TemporaryDirectory(prefix="mars-test-", ignore_cleanup_errors=True))
+        return Deaths(BUILD, pathlib.Path(folder), is_apart=True)
 
     def killed(self, moment):
         """(what went wrong, whether a node died, how often the job was begun again)"""

@@ -10,7 +10,6 @@ import argparse
 import json
 import os
 import pathlib
-import shutil
 import signal
 import sys
 import tempfile
@@ -164,11 +163,8 @@ def main():
     wanted.build = wanted.build.resolve()
     wanted.output.mkdir(parents=True, exist_ok=True)
     signal.signal(signal.SIGTERM, lambda *_: sys.exit("mars bench faults: stopped"))
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-faults-", dir="/var/tmp"))
-    try:
-        results = measure_all(wanted, folder)
-    finally:
-        shutil.rmtree(folder, ignore_errors=True)
+    with tempfile.TemporaryDirectory(prefix="mars-faults-", dir="/var/tmp", ignore_cleanup_errors=True) as folder:
+        results = measure_all(wanted, pathlib.Path(folder))
     text = table.markdown(keep(results, wanted.output / "results.json", [kind.name for kind in KINDS]))
     (wanted.output / "table.md").write_text(text + "\n")
     print("\n" + text)

@@ -31,8 +31,7 @@ needs_matplotlib = unittest.skipUnless(scaling.PLOTTED, "Matplotlib is not insta
 
 class Study(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix="mars-test-")
-        self.addCleanup(shutil.rmtree, self.folder)
+        self.folder = self.enterContext(tempfile.TemporaryDirectory(prefix="mars-test-"))
 
     def path(self, *names):
         return os.path.join(self.folder, *names)

@@ -350,22 +350,21 @@ def mount(place, megabytes):
 @contextlib.contextmanager
 def places(wanted):
     """The machines, and a folder that all of them see."""
-    folder = pathlib.Path(tempfile.mkdtemp(prefix="mars-soak-", dir="/var/tmp"))
     bin_folder = wanted.build.resolve() / "bin"
     environment = {**os.environ, "PATH": f"{bin_folder}:{os.environ['PATH']}"}
-    try:
+    with tempfile.TemporaryDirectory(prefix="mars-soak-", dir="/var/tmp", ignore_cleanup_errors=True) as name:
+        folder = pathlib.Path(name)
         if wanted.here:
             (folder / "disk").mkdir()
             with OneMachine(folder, environment) as machine:
                 yield machine, folder
-        else:
+            return
+        try:
             mount(folder / "disk", 2048)
             with Cluster(os.environ.get("TESTBED", f"soak-{os.getpid()}"), environment) as cluster:
                 yield cluster, folder
-    finally:
-        if not wanted.here:
+        finally:
             subprocess.run(["umount", "--lazy", folder / "disk"], check=False)
-        shutil.rmtree(folder, ignore_errors=True)
 
 
 def main():

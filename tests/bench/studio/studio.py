@@ -154,13 +154,13 @@ def measure(build, case, seconds, figure):
             Studio(build / "bin", film_in(folder, film, build / "bin" / "mars", figure)) as studio, \
             Browser(script=(HERE / "probe.js").read_text()) as browser:
         browser.open(SlowLink(studio.link).link if views == "slow" else studio.link)
-        browser.until("pictures", "document.querySelectorAll('.view .waiting[hidden]').length === 4", 120)
+        browser.until("pictures", "document.querySelectorAll('.view .waiting[hidden]').length === 4")
         browser.run("document.querySelector('[data-key=view-3]').focus()")
         if views != "four":
             browser.run("document.querySelectorAll('.view .maximise')[3].click()")
         time.sleep(1.5)
         view = browser.run("return document.querySelector('[data-key=view-3]')")
-        at = browser.find(view, DRAGGED[film], 0.2 if views == "slow" else 0.03)
+        at = browser.find(view, DRAGGED[film])
         browser.move(*at)
         dragged = browser.run("return arguments[0].querySelector('.tip').textContent", view).split(" ")[0]
         browser.press(*at, "left" if how == "drag" else "middle")

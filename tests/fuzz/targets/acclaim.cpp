@@ -7,9 +7,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::acclaim {
 
 void take(std::string_view input) {
   constexpr std::string_view kBetween = "....\n";
@@ -22,4 +20,6 @@ void take(std::string_view input) {
   importer::fit_limits(asf.skeleton.joints, motion);
 }
 
-}  // namespace mars::fuzz
+const Target target("acclaim", Form::text, take);
+
+}  // namespace mars::fuzz::acclaim

@@ -5,9 +5,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::bvh {
 
 void take(std::string_view input) {
   importer::BvhFile file = importer::read_bvh(scratch().file("motion.bvh", input));
@@ -17,4 +15,6 @@ void take(std::string_view input) {
   importer::fit_limits(file.skeleton.joints, motion);
 }
 
-}  // namespace mars::fuzz
+const Target target("bvh", Form::text, take);
+
+}  // namespace mars::fuzz::bvh

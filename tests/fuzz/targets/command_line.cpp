@@ -9,7 +9,7 @@
 #include "host/shell/options/render_options.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::command_line {
 namespace {
 
 using options::Program;
@@ -61,8 +61,6 @@ std::optional<int> read(Program program, const std::vector<std::string>& words, 
 
 }  // namespace
 
-const Form kForm = Form::text;
-
 // What was understood is understood the same way by the program that is given it next.
 void take(std::string_view input) {
   std::vector<std::string> words = lines_of(input);
@@ -77,4 +75,6 @@ void take(std::string_view input) {
   check(!ended && handed_on == options::arguments_for(program, again), "options come through a command line");
 }
 
-}  // namespace mars::fuzz
+const Target target("command_line", Form::text, take);
+
+}  // namespace mars::fuzz::command_line

@@ -12,7 +12,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::commands {
 namespace {
 
 constexpr int kNodes = 5, kGroups = 2, kNode = 3;
@@ -139,8 +139,6 @@ void read_draw(std::span<const std::byte> message) {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const Message sound[] = {sound_load(),
                                   message_of(wire::Credit{1, 0}),
@@ -169,4 +167,6 @@ void take(std::string_view input) {
   }
 }
 
-}  // namespace mars::fuzz
+const Target target("commands", Form::bytes, take);
+
+}  // namespace mars::fuzz::commands

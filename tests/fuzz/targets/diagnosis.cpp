@@ -4,9 +4,7 @@
 #include "host/shell/launch/text_reader.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::diagnosis {
 
 void take(std::string_view input) {
   launch::Remains remains;
@@ -27,4 +25,6 @@ void take(std::string_view input) {
   launch::diagnose(remains, options, [] { return "look at it"; });
 }
 
-}  // namespace mars::fuzz
+const Target target("diagnosis", Form::text, take);
+
+}  // namespace mars::fuzz::diagnosis

@@ -4,7 +4,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::edit_film {
 namespace {
 
 const std::filesystem::path& film_path() {
@@ -27,12 +27,12 @@ std::vector<editing::Command> commands_of(std::string_view input) {
 
 }  // namespace
 
-const Form kForm = Form::text;
-
 void take(std::string_view input) {
   static const document::Json sound = document::read_json(film_path());
   document::Json film = sound;
   editing::edit_film(film, film_path(), commands_of(input));
 }
 
-}  // namespace mars::fuzz
+const Target target("edit_film", Form::text, take);
+
+}  // namespace mars::fuzz::edit_film

@@ -3,9 +3,7 @@
 #include "host/render/events/events.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::event_lines {
 
 void take(std::string_view input) {
   const auto event = events::read_event(input);
@@ -14,4 +12,6 @@ void take(std::string_view input) {
   check(events::read_event(line).has_value(), "an event is read as it was written");
 }
 
-}  // namespace mars::fuzz
+const Target target("event_lines", Form::text, take);
+
+}  // namespace mars::fuzz::event_lines

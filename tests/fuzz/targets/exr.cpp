@@ -6,7 +6,7 @@
 #include "tests/fuzz/edits.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::exr {
 namespace {
 
 Message sound() {
@@ -16,8 +16,6 @@ Message sound() {
 }
 
 }  // namespace
-
-const Form kForm = Form::bytes;
 
 void take(std::string_view input) {
   static const Message file = sound();
@@ -33,4 +31,6 @@ void take(std::string_view input) {
   images::decode_exr(changed, "frame.exr");
 }
 
-}  // namespace mars::fuzz
+const Target target("exr", Form::bytes, take);
+
+}  // namespace mars::fuzz::exr

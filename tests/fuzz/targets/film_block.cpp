@@ -9,7 +9,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::film_block {
 namespace {
 
 constexpr std::size_t kLongest = 1 << 16;
@@ -47,8 +47,6 @@ void read_all(const wire::PackedFilm& film) {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const Message sound = wire::pack(wire::small_film());
   Message block = sound;
@@ -57,4 +55,6 @@ void take(std::string_view input) {
   read_all(wire::PackedFilm(block, "film"));
 }
 
-}  // namespace mars::fuzz
+const Target target("film_block", Form::bytes, take);
+
+}  // namespace mars::fuzz::film_block

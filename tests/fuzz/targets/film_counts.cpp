@@ -10,7 +10,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::film_counts {
 namespace {
 
 constexpr std::size_t kHeader = 88, kLongest = 1 << 20;
@@ -34,8 +34,6 @@ struct Counted {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const Counted counted;
   Message numbers = counted.numbers;
@@ -48,4 +46,6 @@ void take(std::string_view input) {
   forecast::rehearse(counts, plan, {counted.film, platform}, 3);
 }
 
-}  // namespace mars::fuzz
+const Target target("film_counts", Form::bytes, take);
+
+}  // namespace mars::fuzz::film_counts

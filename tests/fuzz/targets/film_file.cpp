@@ -10,7 +10,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/node/wire/small_film.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::film_file {
 namespace {
 
 constexpr std::size_t kLongest = 1 << 16;
@@ -39,8 +39,6 @@ void set_checksum(Message& file) {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const Message whole = sound();
   Message file = whole;
@@ -53,4 +51,6 @@ void take(std::string_view input) {
   film.view().patch_instances();
 }
 
-}  // namespace mars::fuzz
+const Target target("film_file", Form::bytes, take);
+
+}  // namespace mars::fuzz::film_file

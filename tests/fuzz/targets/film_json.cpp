@@ -9,7 +9,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::film_json {
 namespace {
 
 // What is made of longer films takes long, and is nothing else.
@@ -22,8 +22,6 @@ constexpr const char* kModel = R"({"joints": [
   "materials": {"red": {"color": [1, 0, 0]}}})";
 
 }  // namespace
-
-const Form kForm = Form::text;
 
 void take(std::string_view input) {
   static const auto model = scratch().file("model.json", kModel);
@@ -42,4 +40,6 @@ void take(std::string_view input) {
   film::compile(film, small);
 }
 
-}  // namespace mars::fuzz
+const Target target("film_json", Form::text, take);
+
+}  // namespace mars::fuzz::film_json

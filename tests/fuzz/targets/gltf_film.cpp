@@ -5,9 +5,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::gltf_film {
 
 void take(std::string_view input) {
   const auto path = scratch().file("scene.gltf", input);
@@ -18,4 +16,6 @@ void take(std::string_view input) {
   nodes.at(clock.frames - 1);
 }
 
-}  // namespace mars::fuzz
+const Target target("gltf_film", Form::text, take);
+
+}  // namespace mars::fuzz::gltf_film

@@ -3,9 +3,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::hostfile {
 
 void take(std::string_view input) {
   launch::tasks_of_machines(std::string(input));
@@ -14,4 +12,6 @@ void take(std::string_view input) {
   launch::default_nodes(options, {});
 }
 
-}  // namespace mars::fuzz
+const Target target("hostfile", Form::text, take);
+
+}  // namespace mars::fuzz::hostfile

@@ -3,9 +3,7 @@
 #include "host/preview/key_press.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::bytes;
+namespace mars::fuzz::key_bytes {
 
 void take(std::string_view input) {
   std::string all(input), rest;
@@ -19,4 +17,6 @@ void take(std::string_view input) {
   check(all.size() <= input.size() && all == rest && whole == pieces, "keys are the same however they come");
 }
 
-}  // namespace mars::fuzz
+const Target target("key_bytes", Form::bytes, take);
+
+}  // namespace mars::fuzz::key_bytes

@@ -7,7 +7,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::model_json {
 
 namespace {
 
@@ -19,8 +19,6 @@ constexpr const char* kBase = R"({"joints": [
   "materials": {"shirt": {"color": [1, 0, 0]}}})";
 
 }  // namespace
-
-const Form kForm = Form::text;
 
 void take(std::string_view input) {
   static const auto base = scratch().file("base.json", kBase);
@@ -36,4 +34,6 @@ void take(std::string_view input) {
   document::laid_out(json);
 }
 
-}  // namespace mars::fuzz
+const Target target("model_json", Form::text, take);
+
+}  // namespace mars::fuzz::model_json

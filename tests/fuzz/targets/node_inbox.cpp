@@ -15,7 +15,7 @@
 #include "tests/fuzz/target.h"
 #include "tests/host/render/farm/strips.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::node_inbox {
 namespace {
 
 using wire::PixelFormat;
@@ -157,8 +157,6 @@ void take_in_slot(Script& script, PixelFormat format, DeadPeers& peers) {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const std::array<std::vector<Kind>, 3> all{kinds(PixelFormat::rgb8), kinds(PixelFormat::rgb16),
                                                     kinds(PixelFormat::half)};
@@ -179,4 +177,6 @@ void take(std::string_view input) {
   }
 }
 
-}  // namespace mars::fuzz
+const Target target("node_inbox", Form::bytes, take);
+
+}  // namespace mars::fuzz::node_inbox

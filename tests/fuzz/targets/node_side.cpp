@@ -7,9 +7,7 @@
 #include "tests/fuzz/recorded_job.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::bytes;
+namespace mars::fuzz::node_side {
 
 void take(std::string_view input) {
   constexpr std::uint32_t kSamples = 2;
@@ -31,4 +29,6 @@ void take(std::string_view input) {
   }
 }
 
-}  // namespace mars::fuzz
+const Target target("node_side", Form::bytes, take);
+
+}  // namespace mars::fuzz::node_side

@@ -17,7 +17,7 @@
 #include "host/cli/wrapped.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::option_values {
 namespace {
 
 using Reader = void (*)(const std::string&);
@@ -62,8 +62,6 @@ const std::map<std::string, Reader, std::less<>>& readers() {
 
 }  // namespace
 
-const Form kForm = Form::text;
-
 void take(std::string_view input) {
   const std::size_t end = std::min(input.find(' '), input.size());
   const auto reader = readers().find(input.substr(0, end));
@@ -72,4 +70,6 @@ void take(std::string_view input) {
   for (const auto& [name, read] : readers()) read(text);
 }
 
-}  // namespace mars::fuzz
+const Target target("option_values", Form::text, take);
+
+}  // namespace mars::fuzz::option_values

@@ -3,7 +3,7 @@
 #include "tests/fuzz/steps.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::page_animate_words {
 namespace {
 
 constexpr const char* kCommands = R"(
@@ -62,11 +62,11 @@ Messages actions() {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static StudioPages pages(figure_film(), steps_of(messages_of(kCommands)), steps_of(actions()));
   pages.take(input);
 }
 
-}  // namespace mars::fuzz
+const Target target("page_animate_words", Form::bytes, take);
+
+}  // namespace mars::fuzz::page_animate_words

@@ -2,7 +2,7 @@
 #include "tests/fuzz/steps.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::page_film_steps {
 namespace {
 
 constexpr const char* kSteps = R"(
@@ -17,11 +17,11 @@ constexpr const char* kSteps = R"(
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static StudioPages pages(small_film(), with_steps(messages_of(kSteps)));
   pages.take(input);
 }
 
-}  // namespace mars::fuzz
+const Target target("page_film_steps", Form::bytes, take);
+
+}  // namespace mars::fuzz::page_film_steps

@@ -2,7 +2,7 @@
 #include "tests/fuzz/steps.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::page_model_steps {
 namespace {
 
 constexpr const char* kSteps = R"(
@@ -26,11 +26,11 @@ constexpr const char* kOthers = R"(
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static StudioPages pages(small_model(), with_steps(messages_of(kSteps)), with_steps(messages_of(kOthers)));
   pages.take(input);
 }
 
-}  // namespace mars::fuzz
+const Target target("page_model_steps", Form::bytes, take);
+
+}  // namespace mars::fuzz::page_model_steps

@@ -2,7 +2,7 @@
 #include "tests/fuzz/studio_pages.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::page_rendering {
 namespace {
 
 constexpr const char* kSound = R"(
@@ -19,11 +19,11 @@ constexpr const char* kOthers = R"({"do": "painted", "view": 255, "picture": 1})
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static StudioPages pages(small_film(), messages_of(kSound), messages_of(kOthers));
   pages.take(input);
 }
 
-}  // namespace mars::fuzz
+const Target target("page_rendering", Form::bytes, take);
+
+}  // namespace mars::fuzz::page_rendering

@@ -2,7 +2,7 @@
 #include "tests/fuzz/studio_pages.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::page_views {
 namespace {
 
 constexpr const char* kSound = R"(
@@ -53,11 +53,11 @@ constexpr const char* kSound = R"(
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static StudioPages pages(small_film(), messages_of(kSound));
   pages.take(input);
 }
 
-}  // namespace mars::fuzz
+const Target target("page_views", Form::bytes, take);
+
+}  // namespace mars::fuzz::page_views

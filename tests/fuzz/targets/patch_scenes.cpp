@@ -5,9 +5,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::patch_scenes {
 
 void take(std::string_view input) {
   const std::size_t end = std::min(input.find('\n'), input.size());
@@ -18,4 +16,6 @@ void take(std::string_view input) {
     importer::read_pov(scratch().file("scene.pov", text));
 }
 
-}  // namespace mars::fuzz
+const Target target("patch_scenes", Form::text, take);
+
+}  // namespace mars::fuzz::patch_scenes

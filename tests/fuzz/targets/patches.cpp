@@ -3,10 +3,10 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::patches {
 
 void take(std::string_view input) { modeler::read_patch_file(scratch().file("patches.bpt", input)); }
 
-}  // namespace mars::fuzz
+const Target target("patches", Form::text, take);
+
+}  // namespace mars::fuzz::patches

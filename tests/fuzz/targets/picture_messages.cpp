@@ -10,7 +10,7 @@
 #include "tests/fuzz/edits.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::picture_messages {
 namespace {
 
 using pictures::Kind;
@@ -129,8 +129,6 @@ void take_stream(const Message& stream, Peer peer) {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const std::array<Message, 5> sound{requests(), views(), rendering(), player(), window()};
   Script script(input);
@@ -140,4 +138,6 @@ void take(std::string_view input) {
   if (!stream.empty()) take_stream(stream, sender_of(which));
 }
 
-}  // namespace mars::fuzz
+const Target target("picture_messages", Form::bytes, take);
+
+}  // namespace mars::fuzz::picture_messages

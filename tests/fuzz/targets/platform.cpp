@@ -3,12 +3,12 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::platform {
 
 void take(std::string_view input) {
   experiments::read_platform(scratch().file("platform.json", input), scratch().path(""));
 }
 
-}  // namespace mars::fuzz
+const Target target("platform", Form::text, take);
+
+}  // namespace mars::fuzz::platform

@@ -4,9 +4,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::ply {
 
 void take(std::string_view input) {
   const auto path = scratch().file("mesh.ply", input);
@@ -15,4 +13,6 @@ void take(std::string_view input) {
     if (joint.part) importer::shape_text(joint.part->mesh);
 }
 
-}  // namespace mars::fuzz
+const Target target("ply", Form::text, take);
+
+}  // namespace mars::fuzz::ply

@@ -9,7 +9,7 @@
 #include "tests/fuzz/edits.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::png {
 namespace {
 
 constexpr const char* kNote = "a note";
@@ -49,8 +49,6 @@ Message sound(bool two_words) {
 
 }  // namespace
 
-const Form kForm = Form::bytes;
-
 void take(std::string_view input) {
   static const std::array<Message, 2> files{sound(false), sound(true)};
   if (input.starts_with("\x89PNG")) {
@@ -69,4 +67,6 @@ void take(std::string_view input) {
     images::decode_png16(file, "frame.png");
 }
 
-}  // namespace mars::fuzz
+const Target target("png", Form::bytes, take);
+
+}  // namespace mars::fuzz::png

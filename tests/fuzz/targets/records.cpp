@@ -12,7 +12,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::records {
 namespace {
 
 constexpr std::string_view kBetween = "\n----\n";
@@ -42,8 +42,6 @@ void expect_written_again(const sinks::Manifest& manifest) {
 
 }  // namespace
 
-const Form kForm = Form::text;
-
 void take(std::string_view input) {
   static const std::filesystem::path runs = scratch().path(".runs");
   std::filesystem::create_directory(runs);
@@ -61,4 +59,6 @@ void take(std::string_view input) {
   expect_written_again(sinks::read_manifest(scratch().path("")));
 }
 
-}  // namespace mars::fuzz
+const Target target("records", Form::text, take);
+
+}  // namespace mars::fuzz::records

@@ -9,14 +9,12 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::scene_file {
 namespace {
 
 constexpr std::array<std::string_view, 8> kEndings{"obj", "stl", "gltf", "glb", "fbx", "dae", "ply", "bpt"};
 
 }  // namespace
-
-const Form kForm = Form::text;
 
 void take(std::string_view input) {
   const std::size_t end = std::min(input.find('\n'), input.size());
@@ -31,4 +29,6 @@ void take(std::string_view input) {
   importer::import_model(options);
 }
 
-}  // namespace mars::fuzz
+const Target target("scene_file", Form::text, take);
+
+}  // namespace mars::fuzz::scene_file

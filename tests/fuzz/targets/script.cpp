@@ -4,7 +4,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::script {
 namespace {
 
 const std::filesystem::path& film_path() {
@@ -14,12 +14,12 @@ const std::filesystem::path& film_path() {
 
 }  // namespace
 
-const Form kForm = Form::text;
-
 void take(std::string_view input) {
   static const document::Json sound = document::read_json(film_path());
   document::Json film = sound;
   motion::play_script(film, film_path(), std::string(input), "play.script");
 }
 
-}  // namespace mars::fuzz
+const Target target("script", Form::text, take);
+
+}  // namespace mars::fuzz::script

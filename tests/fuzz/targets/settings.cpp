@@ -6,9 +6,7 @@
 #include "hal/messages/settings.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::settings {
 
 void take(std::string_view input) {
   clearenv();
@@ -26,4 +24,6 @@ void take(std::string_view input) {
   messages::read_settings();
 }
 
-}  // namespace mars::fuzz
+const Target target("settings", Form::text, take);
+
+}  // namespace mars::fuzz::settings

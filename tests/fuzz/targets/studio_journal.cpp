@@ -3,9 +3,7 @@
 #include "tests/fuzz/scratch.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
-
-const Form kForm = Form::text;
+namespace mars::fuzz::studio_journal {
 
 void take(std::string_view input) {
   const auto model = scratch().file("a.json", R"({"joints": [{"name": "a"}, {"name": "b", "parent": "a"}]})");
@@ -17,4 +15,6 @@ void take(std::string_view input) {
   project->commit({{"commands", {{"model", "set", "b", "--place", "1", "2", "3"}}}});
 }
 
-}  // namespace mars::fuzz
+const Target target("studio_journal", Form::text, take);
+
+}  // namespace mars::fuzz::studio_journal

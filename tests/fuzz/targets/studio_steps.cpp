@@ -5,7 +5,7 @@
 #include "tests/fuzz/studio_pages.h"
 #include "tests/fuzz/target.h"
 
-namespace mars::fuzz {
+namespace mars::fuzz::studio_steps {
 namespace {
 
 void take_step(studio::Project& project, const document::Json& step, std::string& refused) {
@@ -22,8 +22,6 @@ void take_step(studio::Project& project, const document::Json& step, std::string
 }
 
 }  // namespace
-
-const Form kForm = Form::text;
 
 void take(std::string_view input) {
   for (const auto& [name, text] : small_film().files) scratch().file(name, text);
@@ -49,4 +47,6 @@ void take(std::string_view input) {
   if (!refused.empty()) throw Failure(refused, "", "");
 }
 
-}  // namespace mars::fuzz
+const Target target("studio_steps", Form::text, take);
+
+}  // namespace mars::fuzz::studio_steps

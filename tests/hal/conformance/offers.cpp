@@ -20,7 +20,7 @@ using messages::MemoryName;
 using messages::OfferedMemory;
 
 constexpr std::size_t kBytes = 100'000;
-constexpr long kName = 91, kSeen = 92, kGone = 93, kHere = 94;
+constexpr long kName = 91, kSeen = 92, kGone = 93, kSeesOffer = 94;
 
 long ranks() { return numnodes() + 1; }
 long next_rank() { return (mynode() + 1) % ranks(); }
@@ -28,9 +28,9 @@ int previous_rank() { return static_cast<int>((mynode() + ranks() - 1) % ranks()
 
 // These tests run on one machine; where nodes are simulated, each has its own, which shows only with several.
 bool all_are_here() {
-  if (is_host()) return receive_long(kHere) != 0;
+  if (is_host()) return receive_long(kSeesOffer) != 0;
   const bool here = numnodes() > 1 && messages::neighbourhood().count == numnodes();
-  if (mynode() == 0) send_long(kHere, here, myhost());
+  if (mynode() == 0) send_long(kSeesOffer, here, myhost());
   return here;
 }
 

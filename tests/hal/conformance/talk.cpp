@@ -10,11 +10,11 @@
 namespace mars::conformance {
 namespace {
 
-constexpr long kHere = 999'000'001;
+constexpr long kHasCome = 999'000'001;
 constexpr long kGo = 999'000'002;
 
 void gather() {
-  for (long node = 0; node < numnodes(); ++node) receive_empty(kHere);
+  for (long node = 0; node < numnodes(); ++node) receive_empty(kHasCome);
 }
 
 }  // namespace
@@ -62,10 +62,10 @@ void meet(const std::function<void()>& between) {
     send_empty(kGo, -1);
     return;
   }
-  send_empty(kHere, myhost());
+  send_empty(kHasCome, myhost());
   receive_empty(kGo);
   between();  // the host knows that all are here, and no node is further
-  send_empty(kHere, myhost());
+  send_empty(kHasCome, myhost());
   receive_empty(kGo);
 }
 

@@ -23,6 +23,7 @@
 #include "hal/nx/nx_global.h"
 #include "hal/threads/run_threads.h"
 #include "tests/hal/machines_backend.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::nx {
 namespace {
@@ -30,13 +31,6 @@ namespace {
 // A folder of the test's own, and in it the file that nodes share.
 class FilesTest : public testing::TestWithParam<int> {
  protected:
-  FilesTest() {
-    std::string name = (std::filesystem::temp_directory_path() / "mars-files-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-    path_ = folder_ / "shared";
-  }
-  ~FilesTest() override { std::filesystem::remove_all(folder_); }
-
   // `body` gets the node's own descriptor.
   void run(const std::function<void(int)>& body, int flags = O_RDWR | O_CREAT) {
     threads::run_threads(
@@ -59,12 +53,13 @@ class FilesTest : public testing::TestWithParam<int> {
   void put(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
   std::vector<std::string> entries() const {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator(folder_)) names.push_back(entry.path().filename());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+      names.push_back(entry.path().filename());
     return names;
   }
 
-  std::filesystem::path folder_;
-  std::filesystem::path path_;
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "shared";
 
  private:
   void with_file(const std::function<void(int)>& body, int flags) const {

@@ -1,4 +1,5 @@
 #include "hal/nx/files_worker.h"
+#include "tests/temporary_folder.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -49,8 +50,8 @@ TEST(FilesWorker, IdsAreScarceAndUsedAgain) {
 }
 
 TEST(FilesWorker, ItsEndIsTheEndOfAllTransfers) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("mars-worker-" + std::to_string(::getpid()));
+  const test::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "file";
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC, 0600);
   ASSERT_GE(fd, 0);
   std::string piece(100'000, 'a');
@@ -62,7 +63,6 @@ TEST(FilesWorker, ItsEndIsTheEndOfAllTransfers) {
   }
   EXPECT_EQ(std::filesystem::file_size(path), 5'000'000u);
   ::close(fd);
-  std::filesystem::remove(path);
 }
 
 TEST(FilesWorker, AnErrorIsWhatCameOfIt) {

@@ -6,15 +6,15 @@
 namespace mars::simulated {
 namespace {
 
-constexpr double kByte = 1e-3, kLatency = 0.25, kHop = 0.5;
+constexpr double kRouteByte = 1e-3, kRouteLatency = 0.25, kHop = 0.5;
 constexpr std::size_t kLong = 4000;  // bytes: 4 s
 
 Network network_of(Topology topology) {
-  Network network{.topology = topology, .latency = kLatency, .hop = kHop, .byte = kByte};
+  Network network{.topology = topology, .latency = kRouteLatency, .hop = kHop, .byte = kRouteByte};
   network.leaf = 2;
-  network.uplink = 2 * kByte;
+  network.uplink = 2 * kRouteByte;
   network.local_latency = 0.125;
-  network.local_byte = kByte / 2;
+  network.local_byte = kRouteByte / 2;
   return network;
 }
 
@@ -24,7 +24,7 @@ struct Net : Routes {
   double arrival(int from, int to, std::size_t bytes, double time) { return Routes::arrival(from, to, bytes, time, 0); }
 };
 
-constexpr double kTwoPorts = kLatency + 2 * kHop;
+constexpr double kTwoPorts = kRouteLatency + 2 * kHop;
 
 TEST(OneSwitch, TakesLatencyPortsAndBytesOnce) {
   Net net(Topology::one_switch);
@@ -56,7 +56,7 @@ TEST(OneSwitch, WhatIsGivenLaterTakesAFreeStretch) {
 
 TEST(FatTree, LeavesShareTheirUplink) {
   Net net(Topology::fat_tree);
-  const double four_parts = kLatency + 4 * kHop;
+  const double four_parts = kRouteLatency + 4 * kHop;
   EXPECT_DOUBLE_EQ(net.arrival(0, 1, kLong, 0), 4 + kTwoPorts) << "within a leaf";
   EXPECT_DOUBLE_EQ(net.arrival(4, 6, kLong, 0), 8 + four_parts);
   EXPECT_DOUBLE_EQ(net.arrival(5, 2, kLong, 0), 16 + four_parts) << "from the same leaf";
@@ -64,7 +64,7 @@ TEST(FatTree, LeavesShareTheirUplink) {
 
 TEST(Dragonfly, EachPairOfGroupsHasALink) {
   Net net(Topology::dragonfly);
-  const double three_parts = kLatency + 3 * kHop;
+  const double three_parts = kRouteLatency + 3 * kHop;
   EXPECT_DOUBLE_EQ(net.arrival(0, 2, kLong, 0), 8 + three_parts);
   EXPECT_DOUBLE_EQ(net.arrival(1, 4, kLong, 0), 8 + three_parts) << "another pair";
   EXPECT_DOUBLE_EQ(net.arrival(1, 3, kLong, 4), 16 + three_parts) << "the same";
@@ -72,24 +72,24 @@ TEST(Dragonfly, EachPairOfGroupsHasALink) {
 
 TEST(Hypercube, TakesEcubeRoutesAndHoldsAllTheirChannels) {
   Net net(Topology::hypercube);
-  EXPECT_DOUBLE_EQ(net.arrival(0, 7, kLong, 0), 4 + kLatency + 3 * kHop);
-  EXPECT_DOUBLE_EQ(net.arrival(1, 3, kLong, 0), 8 + kLatency + kHop) << "0 to 7 goes over 1, 3";
-  EXPECT_DOUBLE_EQ(net.arrival(0, 2, kLong, 0), 4 + kLatency + kHop) << "but not over 2";
-  EXPECT_DOUBLE_EQ(net.arrival(3, 1, kLong, 0), 4 + kLatency + kHop) << "nor back";
+  EXPECT_DOUBLE_EQ(net.arrival(0, 7, kLong, 0), 4 + kRouteLatency + 3 * kHop);
+  EXPECT_DOUBLE_EQ(net.arrival(1, 3, kLong, 0), 8 + kRouteLatency + kHop) << "0 to 7 goes over 1, 3";
+  EXPECT_DOUBLE_EQ(net.arrival(0, 2, kLong, 0), 4 + kRouteLatency + kHop) << "but not over 2";
+  EXPECT_DOUBLE_EQ(net.arrival(3, 1, kLong, 0), 4 + kRouteLatency + kHop) << "nor back";
 }
 
 TEST(Hypercube, TheHostIsBesideComputer0) {
   Network network = network_of(Topology::hypercube);
-  network.host_byte = 3 * kByte;
+  network.host_byte = 3 * kRouteByte;
   network.host_latency = 7;
   Routes net(network, 8, 8);
-  EXPECT_DOUBLE_EQ(net.arrival(8, 0, kLong, 0, 0), 12 + 7 + kLatency + kHop);
-  EXPECT_DOUBLE_EQ(net.arrival(3, 8, kLong, 0, 0), 12 + 7 + kLatency + 3 * kHop) << "at the rate of the slowest";
+  EXPECT_DOUBLE_EQ(net.arrival(8, 0, kLong, 0, 0), 12 + 7 + kRouteLatency + kHop);
+  EXPECT_DOUBLE_EQ(net.arrival(3, 8, kLong, 0, 0), 12 + 7 + kRouteLatency + 3 * kHop) << "at the rate of the slowest";
 }
 
 TEST(AnyNetwork, TheHostMayHaveAPortOfItsOwnRate) {
   Network network = network_of(Topology::one_switch);
-  network.host_byte = kByte / 4;
+  network.host_byte = kRouteByte / 4;
   Routes net(network, 8, 8);
   EXPECT_DOUBLE_EQ(net.arrival(0, 8, kLong, 0, 0), 4 + kTwoPorts) << "the sender's is slower";
   EXPECT_DOUBLE_EQ(net.arrival(1, 8, kLong, 0, 0), 4 + kTwoPorts);

@@ -7,9 +7,11 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <filesystem>
 
 #include "host/child/descriptor.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::child {
 namespace {
@@ -86,8 +88,9 @@ TEST(Process, MayHaveSignalsThatWeIgnore) {
 }
 
 TEST(Process, DetachedOnesAreNotOurs) {
-  std::string folder = testing::TempDir() + "detached.XXXXXX";
-  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const test::TemporaryFolder own;
+  const std::filesystem::path folder = own / "folder";
+  ASSERT_TRUE(std::filesystem::create_directory(folder));
   run_detached([&] { rmdir(folder.c_str()); });
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
   for (int tries = 0; tries < 500 && access(folder.c_str(), F_OK) == 0; ++tries) usleep(10000);

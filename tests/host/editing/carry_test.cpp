@@ -14,7 +14,7 @@
 namespace mars::editing {
 namespace {
 
-constexpr const char* kFilm = R"({"frames": 30, "camera": {"eye": [0, -9, 2]},
+constexpr const char* kCarryFilm = R"({"frames": 30, "camera": {"eye": [0, -9, 2]},
 "models": {"arm": {"joints": [{"name": "a"}, {"name": "b", "parent": "a", "place": [1, 0, 0],
   "segment": {"shape": "box"}}]}},
 "actors": [{"name": "ball", "model": "arm", "place": [1, 1, 0], "turn": [0, 0, 20]},
@@ -23,7 +23,7 @@ constexpr const char* kFilm = R"({"frames": 30, "camera": {"eye": [0, -9, 2]},
 
 class Carry : public testing::Test {
  protected:
-  document::Json json = document::Json::parse(kFilm);
+  document::Json json = document::Json::parse(kCarryFilm);
 
   void execute(std::initializer_list<const char*> words) {
     Command command{"animate"};

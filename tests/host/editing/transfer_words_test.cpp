@@ -7,6 +7,7 @@
 #include "host/content/film/film_json.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::editing {
 namespace {
@@ -16,8 +17,6 @@ namespace fs = std::filesystem;
 class OtherFilm : public testing::Test {
  protected:
   OtherFilm() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     edit(json_, {"film", "add", "anna", "--model", "child"});
     document::Json other = animator::new_film();
     other["rate"] = 30;
@@ -29,13 +28,12 @@ class OtherFilm : public testing::Test {
       other["actors"][1]["keys"].push_back({{"frame", frame}, {"place", {frame / 30.0, 0, 0}}});
     film::create_film(folder_ / "walk.json", other);
   }
-  ~OtherFilm() override { fs::remove_all(folder_); }
 
   Done edit(document::Json& json, const Command& words) {
     return edit_film(json, folder_ / "film.json", std::vector<Command>{words});
   }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / "mars-transfer-words-test";
+  const test::TemporaryFolder folder_;
   document::Json json_ = animator::new_film();
 };
 

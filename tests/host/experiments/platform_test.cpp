@@ -13,7 +13,7 @@
 #include "host/experiments/calibrate.h"
 #include "node/wire/work.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::experiments {
 namespace {
@@ -43,7 +43,7 @@ class Platforms : public testing::Test {
     return platform.machine.work.at(static_cast<std::size_t>(kind));
   }
 
-  sinks::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Platforms, SayWhatMachinesAre) {

@@ -2,11 +2,9 @@
 #include "host/images/display_view.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <random>
 #include <string>
@@ -14,6 +12,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/images/half_light.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::images {
 namespace {
@@ -51,18 +50,15 @@ constexpr double kMiddle[3] = {0.7, 0.6, 0.5}, kEnd[3] = {1, 1, 0.9};
 class DisplayViews : public testing::Test {
  protected:
   void SetUp() override {
-    std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "config.ocio") << kConfig;
     std::ofstream(folder_ / "table.cube") << kTable;
   }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
 
   ViewWish wish(const std::string& view, const std::string& input = "") const {
     return {(folder_ / "config.ocio").string(), "", view, input};
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("display-views-" + std::to_string(getpid()));
+  const test::TemporaryFolder folder_;
 };
 
 std::array<double, 3> film_of(const float* light) {

@@ -8,7 +8,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::images {
 namespace {
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> random_halves(std::size_t count) {
 }
 
 TEST(ExrFile, GivesBackWhatWasWritten) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}, {1u, 16384u}}) {
     const std::vector<std::uint32_t> pixels = random_halves(std::size_t{width} * height);
     document::write_whole_file(folder / "x.exr", encode_picture(PictureFormat::exr, width, height, pixels));
@@ -95,7 +95,7 @@ TEST(ExrFile, NoDamageDoesHarm) {
 }
 
 TEST(ExrFile, OtherFilesAreTold) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   document::write_whole_file(folder / "x.exr", std::string_view("no picture at all"));
   const std::string failure = document::failure_of([&] { read_picture(PictureFormat::exr, folder / "x.exr"); });
   EXPECT_TRUE(document::holds(failure, "not a whole EXR picture")) << failure;

@@ -7,7 +7,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::images {
 namespace {
@@ -27,7 +27,7 @@ std::vector<std::uint32_t> random_wide_pixels(std::size_t count) {
 }
 
 TEST(PngFile, GivesBackWhatWasWritten) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {640u, 5u}, {16384u, 1u}}) {
     const std::vector<std::uint32_t> pixels = random_pixels(std::size_t{width} * height);
     document::write_whole_file(folder / "x.png", encode_picture(PictureFormat::png, width, height, pixels));
@@ -40,7 +40,7 @@ TEST(PngFile, GivesBackWhatWasWritten) {
 
 // Words of two pixels' channels are odd ones, so that no byte is taken for another.
 TEST(PngFile, GivesBackSixteenBits) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{1u, 1u}, {3u, 200u}, {16384u, 1u}}) {
     const std::vector<std::uint32_t> pixels = random_wide_pixels(std::size_t{width} * height);
     document::write_whole_file(folder / "x.png", encode_picture(PictureFormat::png16, width, height, pixels));
@@ -55,7 +55,7 @@ TEST(PngFile, GivesBackSixteenBits) {
 }
 
 TEST(PngFile, CarriesANoteBesideThePixels) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string note = R"({"frame": 7})";
   for (const PictureFormat format : {PictureFormat::png, PictureFormat::png16, PictureFormat::exr}) {
     const std::vector<std::uint32_t> pixels(6 * 4 * (format == PictureFormat::png ? 1 : 2), 0x1234);
@@ -108,7 +108,7 @@ TEST(PngFile, NoDamageDoesHarm) {
 }
 
 TEST(PngFile, OtherFilesAreTold) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   document::write_whole_file(folder / "x.png", std::string_view("no picture at all"));
   EXPECT_TRUE(document::holds(document::failure_of([&] { read_picture(PictureFormat::png, folder / "x.png"); }),
                               "not a whole PNG picture"));

@@ -12,6 +12,7 @@
 #include "host/content/film/film_file.h"
 #include "host/content/film/film_json.h"
 #include "host/preview/film_drawing.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::preview {
 namespace {
@@ -32,12 +33,7 @@ constexpr KeyPress kBackTab{0, Special::back_tab}, kLeave{0, Special::escape};
 
 class Posing : public testing::Test {
  protected:
-  Posing() {
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
-    document::write_whole_file(path_, kFilm);
-  }
-  ~Posing() override { std::filesystem::remove_all(folder_); }
+  Posing() { document::write_whole_file(path_, kFilm); }
 
   // What is said at last.
   static std::string press(PoseKeys& keys, std::string_view characters, std::uint32_t frame = 10) {
@@ -46,7 +42,7 @@ class Posing : public testing::Test {
     return keys.note(frame);
   }
 
-  const std::filesystem::path folder_ = std::filesystem::path(testing::TempDir()) / "mars_pose_keys_test";
+  const test::TemporaryFolder folder_;
   const std::filesystem::path path_ = folder_ / "film.json", other_ = folder_ / "other.json";
 };
 

@@ -23,7 +23,7 @@ glm::dvec3 seen(const wire::Camera& camera, const glm::dvec3& place) {
   return at;
 }
 
-void expect_near(const glm::dvec3& is, const glm::dvec3& should) { EXPECT_LT(glm::length(is - should), 1e-9); }
+void expect_same_place(const glm::dvec3& is, const glm::dvec3& should) { EXPECT_LT(glm::length(is - should), 1e-9); }
 
 const Ball kBall{{1, 2, 3}, 2};
 
@@ -32,13 +32,13 @@ TEST(Viewpoint, FrontSideAndTop) {
     const Orbit orbit = orbit_from(which, kBall, 1.5);
     return seen(camera_of(orbit), kBall.center + offset) + glm::dvec3(0, 0, orbit.distance);
   };
-  expect_near(from(From::front, {1, 0, 0}), {0, 0, 1});  // towards the eye
-  expect_near(from(From::front, {0, 1, 0}), {1, 0, 0});  // its left hand is to the right
-  expect_near(from(From::front, {0, 0, 1}), {0, 1, 0});
-  expect_near(from(From::side, {1, 0, 0}), {1, 0, 0});
-  expect_near(from(From::side, {0, 0, 1}), {0, 1, 0});
-  expect_near(from(From::top, {1, 0, 0}), {1, 0, 0});
-  expect_near(from(From::top, {0, 1, 0}), {0, 1, 0});
+  expect_same_place(from(From::front, {1, 0, 0}), {0, 0, 1});  // towards the eye
+  expect_same_place(from(From::front, {0, 1, 0}), {1, 0, 0});  // its left hand is to the right
+  expect_same_place(from(From::front, {0, 0, 1}), {0, 1, 0});
+  expect_same_place(from(From::side, {1, 0, 0}), {1, 0, 0});
+  expect_same_place(from(From::side, {0, 0, 1}), {0, 1, 0});
+  expect_same_place(from(From::top, {1, 0, 0}), {1, 0, 0});
+  expect_same_place(from(From::top, {0, 1, 0}), {0, 1, 0});
 }
 
 TEST(Viewpoint, TheSubjectFillsThePictureAndNoMore) {
@@ -56,7 +56,7 @@ TEST(Viewpoint, TheSubjectFillsThePictureAndNoMore) {
 TEST(Viewpoint, TurningBeginsWhereTheCameraStands) {
   Orbit orbit{kBall.center, 33, 21, 17};
   const Orbit near = orbit_near(camera_of(orbit), kBall);
-  expect_near(near.center, orbit.center);
+  expect_same_place(near.center, orbit.center);
   EXPECT_NEAR(near.turn, 33, 1e-9);
   EXPECT_NEAR(near.height, 21, 1e-9);
   EXPECT_NEAR(near.distance, 17, 1e-9);
@@ -71,7 +71,7 @@ TEST(Viewpoint, TurningBeginsWithWhatTheCameraShows) {
       EXPECT_NEAR(again.world_to_eye.m[row][column], camera.world_to_eye.m[row][column], 1e-9) << row << column;
 }
 
-constexpr const char* kFilm = R"({
+constexpr const char* kCameraFilm = R"({
   "frames": 3, "camera": {"keys": [{"frame": 0, "eye": [0, -6, 3]}, {"frame": 2, "eye": [4, -6, 3]}], "at": [0, 0, 0]},
   "models": {"box": {"joints": [{"name": "side", "segment": {"shape": "box"}}]}},
   "actors": [{"name": "box", "model": "box", "keys": [{"frame": 0}, {"frame": 2, "turn": [0, 0, 90]}]}]
@@ -97,14 +97,15 @@ TEST(Turntable, LightsStandAsTheCameraSeesThem) {
 }
 
 TEST(AsSeen, AnotherCameraKeepsTheExposure) {
-  const std::string text = std::string(kFilm).replace(std::string(kFilm).find("\"at\""), 4, "\"exposure\": 1, \"at\"");
+  const std::string text =
+      std::string(kCameraFilm).replace(std::string(kCameraFilm).find("\"at\""), 4, "\"exposure\": 1, \"at\"");
   const film::CompiledFilm film = film::compile(animator::read_film(document::Document(text, "film").root(), {}));
   const wire::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
   EXPECT_EQ(as_seen(film, {64, 36}, &camera).view().camera_at(1).exposure, 2);
 }
 
 TEST(AsSeen, AnotherCameraStandsStillAndOthersStay) {
-  const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
+  const animator::Film source = animator::read_film(document::Document(kCameraFilm, "film").root(), {});
   const film::CompiledFilm film = film::compile(source);
   const wire::Camera camera = camera_of(orbit_from(From::top, kBall, 1));
   const film::CompiledFilm other = as_seen(film, {64, 36}, &camera);
@@ -135,7 +136,7 @@ struct Asked : SurfaceSource {
 };
 
 TEST(FilmPictures, KeysChangeWhatIsSeen) {
-  const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
+  const animator::Film source = animator::read_film(document::Document(kCameraFilm, "film").root(), {});
   const Wireframe wireframe = wireframe_of(film::compile(source), &source);
   Asked asked;
   FilmPictures pictures(wireframe, asked, {});
@@ -155,7 +156,7 @@ TEST(FilmPictures, KeysChangeWhatIsSeen) {
 }
 
 TEST(FilmPictures, RendererIsAimedOnceAView) {
-  const animator::Film source = animator::read_film(document::Document(kFilm, "film").root(), {});
+  const animator::Film source = animator::read_film(document::Document(kCameraFilm, "film").root(), {});
   const Wireframe wireframe = wireframe_of(film::compile(source), &source);
   Asked asked;
   FilmPictures pictures(wireframe, asked, {});

@@ -11,7 +11,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/whole_file.h"
 #include "host/preview/load.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::preview {
 namespace {
@@ -33,7 +33,7 @@ void write_in_place(const fs::path& path, const std::string& text) {
 }
 
 TEST(WatchedFiles, AreChangedOnceTheyAreTheSameAtTwoLooks) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder / "file";
   write_in_place(file, "read");
   WatchedFiles files(stamps_of({file}));
@@ -51,7 +51,7 @@ TEST(WatchedFiles, AreChangedOnceTheyAreTheSameAtTwoLooks) {
 }
 
 TEST(WatchedFiles, AreChangedByEveryKindOfSave) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path file = folder / "file", link = folder / "link", other = folder / "other", none = folder / "none";
   for (const fs::path& path : {file, other}) write_in_place(path, "read");
   fs::create_symlink(file, link);
@@ -77,7 +77,7 @@ TEST(WatchedFiles, AreChangedByEveryKindOfSave) {
 
 // Of a film: the film, its models, and what these are derived from.
 TEST(WatchedFiles, OfAFilmAreThoseItIsReadFrom) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto written = [&](const char* name, const char* json) {
     document::write_whole_file(folder / name, json);
     return folder / name;

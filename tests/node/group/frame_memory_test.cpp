@@ -17,15 +17,15 @@
 namespace mars::group {
 namespace {
 
-constexpr std::uint32_t kLines = 16;
+constexpr std::uint32_t kLineCount = 16;
 
 // What a node makes of a frame: triangle k, of patch frame * 100 + node, has k edge boxes on line k.
 raster::LineBoxes make(FrameMemory& memory, std::uint32_t frame) {
   raster::Arena& arena = memory.arena();
-  const auto triangles = arena.take<geometry::Triangle>(kLines);
+  const auto triangles = arena.take<geometry::Triangle>(kLineCount);
   std::vector<raster::UnsortedEdgeBox> boxes;
   std::vector<std::uint64_t> totals{0};
-  for (std::uint32_t k = 0; k < kLines; ++k) {
+  for (std::uint32_t k = 0; k < kLineCount; ++k) {
     triangles[k] = {};
     triangles[k].patch = frame * 100 + static_cast<std::uint32_t>(mynode());
     const auto number = static_cast<std::uint32_t>(&triangles[k] - memory.first_triangle());
@@ -33,15 +33,15 @@ raster::LineBoxes make(FrameMemory& memory, std::uint32_t frame) {
       boxes.push_back({{number, static_cast<std::uint32_t>(i), frame, 0}, static_cast<std::uint16_t>(k), 0});
     totals.push_back(boxes.size());
   }
-  raster::LineFiller filler({0, kLines}, totals, memory.first_triangle(), arena);
+  raster::LineFiller filler({0, kLineCount}, totals, memory.first_triangle(), arena);
   filler.add({memory.first_triangle(), boxes, {}});
   return filler.finish();
 }
 
 // Whether the part is what `node` made of the frame.
 void expect_made(const FrameMemory& memory, const raster::LineBoxes& part, int node, std::uint32_t frame) {
-  ASSERT_EQ(part.lines.last, kLines);
-  for (std::uint32_t line = 0; line < kLines; ++line) {
+  ASSERT_EQ(part.lines.last, kLineCount);
+  for (std::uint32_t line = 0; line < kLineCount; ++line) {
     ASSERT_EQ(part.stationary(line).size(), line);
     for (const raster::EdgeBox& box : part.stationary(line)) {
       ASSERT_EQ(box.after, frame);

@@ -25,7 +25,7 @@ struct Parcel {
   std::size_t size() const { return triangles_at(boxes.size()) + triangles.size() * sizeof(geometry::Triangle); }
 };
 
-constexpr geometry::LineRange kLines{3, 5};
+constexpr geometry::LineRange kLineRange{3, 5};
 
 // In memory that begins at a cache line.
 raster::Polygons read(const Parcel& parcel, std::size_t size, std::vector<std::uint64_t> left = {2, 1}) {
@@ -35,7 +35,7 @@ raster::Polygons read(const Parcel& parcel, std::size_t size, std::vector<std::u
   std::memcpy(bytes.data() + kBoxesAt, parcel.boxes.data(), parcel.boxes.size() * sizeof(UnsortedEdgeBox));
   std::memcpy(bytes.data() + triangles_at(parcel.boxes.size()), parcel.triangles.data(),
               parcel.triangles.size() * sizeof(geometry::Triangle));
-  AwaitedTriangles awaited{kLines, left, 8, 2, 1};
+  AwaitedTriangles awaited{kLineRange, left, 8, 2, 1};
   return read_triangles(bytes.first(size), awaited, 7);
 }
 

@@ -21,8 +21,8 @@ using shading::kNoTriangle;
 constexpr std::size_t kSlack = simd::kVectorSlack;
 
 // What a line's samples show; nothing behind its columns.
-struct Line {
-  Line(std::int32_t width, const shape::SamplePattern& pattern)
+struct LineOfIds {
+  LineOfIds(std::int32_t width, const shape::SamplePattern& pattern)
       : pattern(pattern),
         stride(static_cast<std::size_t>(width) + kSlack),
         ids(stride * static_cast<std::size_t>(pattern.count), kNoTriangle) {}
@@ -39,8 +39,8 @@ struct Line {
 };
 
 // Within `extent` stretches of pixels within one triangle or none, and of pixels whose samples show few or many.
-Line random_line(shape::Random& random, std::int32_t width, Extent extent, const shape::SamplePattern& pattern) {
-  Line line(width, pattern);
+LineOfIds random_line(shape::Random& random, std::int32_t width, Extent extent, const shape::SamplePattern& pattern) {
+  LineOfIds line(width, pattern);
   for (std::uint32_t column = extent.first; column < extent.last;) {
     const std::uint32_t end = std::min(extent.last, column + static_cast<std::uint32_t>(random.whole(1, 40)));
     const int kind = random.whole(0, 4);
@@ -76,7 +76,7 @@ std::vector<std::int32_t> order_of(const shape::SamplePattern& pattern) {
   return {pattern.by_distance, pattern.by_distance + pattern.count};
 }
 
-PlainGroups group_plainly(const Line& line, Extent extent) {
+PlainGroups group_plainly(const LineOfIds& line, Extent extent) {
   PlainGroups out;
   for (std::uint32_t column = extent.first; column < extent.last; ++column) {
     std::vector<Group> groups;
@@ -100,7 +100,7 @@ PlainGroups group_plainly(const Line& line, Extent extent) {
 
 // Arrays as long as a line's samples and twice the slack, and what lies behind them.
 struct GroupSpace {
-  explicit GroupSpace(const Line& line)
+  explicit GroupSpace(const LineOfIds& line)
       : size(line.ids.size() + 2 * kSlack),
         fragments(size + 1),
         masks(size + 1, kUntouched),
@@ -166,7 +166,7 @@ void add_background_plainly(std::vector<PlainPixel>& pixels, std::int32_t sample
   }
 }
 
-void expect_as_plainly(simd::InstructionSet set, const Line& line, Extent extent, shape::Random& random) {
+void expect_as_plainly(simd::InstructionSet set, const LineOfIds& line, Extent extent, shape::Random& random) {
   const RasterKernels& kernels = raster_kernels(set);
   const PlainGroups plain = group_plainly(line, extent);
   std::vector<Group> expected = plain.firsts;
@@ -201,7 +201,7 @@ TEST(Groups, AreAPlainTwins) {
     const std::int32_t first = trial % 3 ? 0 : random.whole(0, width - 1);
     const std::int32_t last = trial % 3 ? width : random.whole(first, width);
     const Extent extent{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last)};
-    const Line line = random_line(random, width, extent, pattern);
+    const LineOfIds line = random_line(random, width, extent, pattern);
     for (const simd::InstructionSet set : simd::all_sets()) {
       SCOPED_TRACE(std::string(simd::name_of(set)) + ", trial " + std::to_string(trial));
       expect_as_plainly(set, line, extent, random);
@@ -215,7 +215,7 @@ TEST(Groups, ALineOfSamplesThatAllDiffer) {
   shape::Random random(96);
   for (const std::uint32_t samples : shape::kSampleCounts)
     for (const std::int32_t width : {1, 15, 16, 17, 130}) {
-      Line line(width, shape::sample_pattern(samples));
+      LineOfIds line(width, shape::sample_pattern(samples));
       for (std::size_t column = 0; column < static_cast<std::size_t>(width); ++column)
         for (std::int32_t s = 0; s < line.pattern.count; ++s)
           line.at(column, s) = static_cast<std::uint32_t>(16 * column) + static_cast<std::uint32_t>(s);

@@ -13,10 +13,10 @@
 namespace mars::raster {
 namespace {
 
-constexpr std::uint32_t kWidth = 40, kLine = 3, kSamples = 4;
+constexpr std::uint32_t kGroupWidth = 40, kGroupLine = 3, kGroupSamples = 4;
 
 enum Shown : std::uint32_t { kRed, kGreen, kBlue, kColors, kNothing = shading::kNoTriangle };
-using Pixel = std::array<Shown, kSamples>;
+using Pixel = std::array<Shown, kGroupSamples>;
 
 // A scene of three triangles, each evenly of one colour in light from all around, before a dark background.
 struct Scene {
@@ -33,7 +33,7 @@ struct Scene {
     shading.triangles = triangles.data();
     shading.materials = materials.data();
     shading.projection.scale = 100;
-    shading.pattern = shape::sample_pattern(kSamples);
+    shading.pattern = shape::sample_pattern(kGroupSamples);
     std::fill_n(shading.background, 3, 0.2f);
     return shading;
   }
@@ -42,11 +42,11 @@ struct Scene {
 };
 
 // What a line shows from column 0 on, and nothing behind it.
-class Line {
+class PixelLine {
  public:
-  Line(std::initializer_list<Pixel> pixels) : ids_(kSamples * kStride, kNothing) {
+  PixelLine(std::initializer_list<Pixel> pixels) : ids_(kGroupSamples * kStride, kNothing) {
     for (const Pixel& pixel : pixels) {
-      for (std::uint32_t s = 0; s < kSamples; ++s) ids_[s * kStride + extent.last] = pixel[s];
+      for (std::uint32_t s = 0; s < kGroupSamples; ++s) ids_[s * kStride + extent.last] = pixel[s];
       ++extent.last;
     }
   }
@@ -55,7 +55,7 @@ class Line {
   shading::Extent extent{0, 0};
 
  private:
-  static constexpr std::uint32_t kStride = kWidth + simd::kVectorSlack;
+  static constexpr std::uint32_t kStride = kGroupWidth + simd::kVectorSlack;
   std::vector<std::uint32_t> ids_;
 };
 
@@ -64,14 +64,14 @@ constexpr Pixel all(Shown shown) { return {shown, shown, shown, shown}; }
 // Still groups of a line, of as many as fit.
 struct Still {
   StillGroups groups() { return {end.data(), all.data()}; }
-  std::vector<std::uint32_t> end = std::vector<std::uint32_t>(kWidth);
-  std::vector<StillGroup> all = std::vector<StillGroup>(kWidth * kSamples);
+  std::vector<std::uint32_t> end = std::vector<std::uint32_t>(kGroupWidth);
+  std::vector<StillGroup> all = std::vector<StillGroup>(kGroupWidth * kGroupSamples);
 };
 
 // Where a strip's pixels and runs go.
 struct Out {
-  std::vector<std::uint32_t> pixels = std::vector<std::uint32_t>(kWidth + simd::kVectorSlack);
-  std::vector<wire::Run> runs = std::vector<wire::Run>(kWidth);
+  std::vector<std::uint32_t> pixels = std::vector<std::uint32_t>(kGroupWidth + simd::kVectorSlack);
+  std::vector<wire::Run> runs = std::vector<wire::Run>(kGroupWidth);
   StripBuffer::Layer layer{reinterpret_cast<std::byte*>(pixels.data()), sizeof(std::uint32_t), runs.data()};
 };
 
@@ -82,16 +82,16 @@ std::uint32_t shown(double red, double green, double blue) {
 }
 
 void expect_run(const wire::Run& run, std::uint32_t first, std::uint32_t count) {
-  EXPECT_EQ(run.line, kLine);
+  EXPECT_EQ(run.line, kGroupLine);
   EXPECT_EQ(run.first, first);
   EXPECT_EQ(run.count, count);
 }
 
 class PixelGroupsTest : public testing::TestWithParam<simd::InstructionSet> {
  protected:
-  PixelGroupsTest() : groups(GetParam(), kWidth, kSamples) {}
-  PixelGroups& shade(Line line) {
-    groups.shade(shading, line.samples(), kLine, line.extent);
+  PixelGroupsTest() : groups(GetParam(), kGroupWidth, kGroupSamples) {}
+  PixelGroups& shade(PixelLine line) {
+    groups.shade(shading, line.samples(), kGroupLine, line.extent);
     return groups;
   }
 
@@ -104,7 +104,7 @@ class PixelGroupsTest : public testing::TestWithParam<simd::InstructionSet> {
 TEST_P(PixelGroupsTest, ResolveToTheirSharesAndTheBackground) {
   shade({all(kNothing), all(kRed), {kRed, kGreen, kNothing, kRed}, all(kNothing), {kNothing, kNothing, kBlue, kGreen}});
   EXPECT_EQ(groups.count(), 5u);
-  groups.resolve(shading, kLine, out.layer);
+  groups.resolve(shading, kGroupLine, out.layer);
   ASSERT_EQ(out.layer.pixel_count(), 3u);
   EXPECT_EQ(out.pixels[0], shown(1, 0, 0));
   EXPECT_EQ(out.pixels[1], shown(0.5 + 0.05, 0.25 + 0.05, 0.05));
@@ -118,8 +118,8 @@ TEST_P(PixelGroupsTest, AreCopiedColumnByColumnInTheOrderOfTheirLowestSamples) {
   Still still;
   std::fill(still.end.begin(), still.end.end(), 99u);
   shade({all(kNothing), {kNothing, kGreen, kRed, kGreen}, all(kNothing), all(kBlue)})
-      .copy_to(still.groups(), shading, kLine);
-  for (std::uint32_t column = 0; column < kWidth; ++column)
+      .copy_to(still.groups(), shading, kGroupLine);
+  for (std::uint32_t column = 0; column < kGroupWidth; ++column)
     EXPECT_EQ(still.groups().of(column).size(), column == 1 ? 2u : column == 3 ? 1u : 0u) << column;
   const auto is = [](const StillGroup& group, Shown color, std::uint32_t samples) {
     for (std::uint32_t c = 0; c < 3; ++c) EXPECT_EQ(group.light[c], c == color ? 1.0f : 0.0f);
@@ -133,9 +133,9 @@ TEST_P(PixelGroupsTest, AreCopiedColumnByColumnInTheOrderOfTheirLowestSamples) {
 TEST_P(PixelGroupsTest, OfAnEmptyLineAreNone) {
   Still still;
   std::fill(still.end.begin(), still.end.end(), 99u);
-  shade({}).copy_to(still.groups(), shading, kLine);
-  EXPECT_EQ(still.end, std::vector<std::uint32_t>(kWidth, 0));
-  groups.resolve(shading, kLine, out.layer);
+  shade({}).copy_to(still.groups(), shading, kGroupLine);
+  EXPECT_EQ(still.end, std::vector<std::uint32_t>(kGroupWidth, 0));
+  groups.resolve(shading, kGroupLine, out.layer);
   EXPECT_EQ(out.layer.pixel_count(), 0u);
   EXPECT_TRUE(out.layer.runs().empty());
 }
@@ -150,13 +150,13 @@ TEST_P(PixelGroupsTest, ResolveOverWhatStandsStill) {
          {kGreen, kGreen, kNothing, kNothing},
          all(kNothing),
          all(kGreen)})
-      .copy_to(still.groups(), shading, kLine);
+      .copy_to(still.groups(), shading, kGroupLine);
   shade({all(kBlue),
          {kBlue, kBlue, kNothing, kNothing},
          {kNothing, kBlue, kNothing, kNothing},
          {kBlue, kNothing, kNothing, kNothing},
          {kBlue, kNothing, kRed, kNothing}})
-      .resolve_over(still.groups(), shading, kLine, out.layer);
+      .resolve_over(still.groups(), shading, kGroupLine, out.layer);
   ASSERT_EQ(out.layer.pixel_count(), 5u);
   EXPECT_EQ(out.pixels[0], shown(0, 0, 1));
   EXPECT_EQ(out.pixels[1], shown(0.5, 0, 0.5));
@@ -184,8 +184,8 @@ TEST_P(PixelGroupsTest, ResolveOverInColumnsThatHaveNoGroups) {
         Columns{6}, Columns{0, 2, 4, 6}, Columns{0, 1, 2, 3, 4, 5, 6}, Columns{5, 6}}) {
     Still still;
     Out pixels;
-    shade(still_pixels).copy_to(still.groups(), shading, kLine);
-    shade(moving_pixels).resolve_over(still.groups(), shading, kLine, pixels.layer, columns);
+    shade(still_pixels).copy_to(still.groups(), shading, kGroupLine);
+    shade(moving_pixels).resolve_over(still.groups(), shading, kGroupLine, pixels.layer, columns);
     Columns expected = columns;
     expected.insert(expected.end(), {2, 3});
     std::sort(expected.begin(), expected.end());
@@ -201,9 +201,9 @@ TEST_P(PixelGroupsTest, ResolveOverInColumnsThatHaveNoGroups) {
 
 TEST_P(PixelGroupsTest, ResolveOverInColumnsAlone) {
   Still still;
-  shade({all(kRed), all(kNothing), all(kGreen)}).copy_to(still.groups(), shading, kLine);
+  shade({all(kRed), all(kNothing), all(kGreen)}).copy_to(still.groups(), shading, kGroupLine);
   const std::uint32_t columns[] = {0, 2};
-  shade({}).resolve_over(still.groups(), shading, kLine, out.layer, columns);
+  shade({}).resolve_over(still.groups(), shading, kGroupLine, out.layer, columns);
   ASSERT_EQ(out.layer.pixel_count(), 2u);
   EXPECT_EQ(out.pixels[0], shown(1, 0, 0));
   EXPECT_EQ(out.pixels[1], shown(0, 1, 0));
@@ -220,12 +220,12 @@ TEST_P(PixelGroupsTest, AreRestoredWithLightFromElsewhere) {
   std::vector<shading::Fragment> fragments(room);
   std::vector<std::uint32_t> masks(room), of(room);
   groups.copy_to(Groups{fragments.data(), masks.data(), of.data()});
-  groups.resolve(shading, kLine, out.layer);
+  groups.resolve(shading, kGroupLine, out.layer);
   Out again;
   groups.restore(counts, {fragments.data(), masks.data(), of.data()});
   for (std::uint32_t k = 0; k < groups.count(); ++k)
     for (std::size_t c = 0; c < 3; ++c) groups.light().channel[c][k] = fragments[k].triangle == c ? 1.0f : 0.0f;
-  groups.resolve(shading, kLine, again.layer);
+  groups.resolve(shading, kGroupLine, again.layer);
   ASSERT_EQ(again.layer.pixel_count(), out.layer.pixel_count());
   for (std::size_t k = 0; k < out.layer.pixel_count(); ++k) EXPECT_EQ(again.pixels[k], out.pixels[k]);
 }

@@ -24,17 +24,17 @@ namespace {
 using shape::Dicer;
 using shape::EyePatch;
 
-constexpr std::int32_t kWidth = 200, kHeight = 150;
-const shape::Projection kView = shape::projection(kWidth, kHeight, 2, 0.1, 1000);
-const double kScale = kView.scale;
+constexpr std::int32_t kTwinWidth = 200, kTwinHeight = 150;
+const shape::Projection kTwinView = shape::projection(kTwinWidth, kTwinHeight, 2, 0.1, 1000);
+const double kScale = kTwinView.scale;
 
 // `turned_over` counts those that snapping turned over.
 Made expected_of(const std::vector<PlainTriangle>& plain, const shape::SamplePattern& pattern, bool moving,
                  int* turned_over) {
   Made out;
-  out.line_loads.resize(kHeight);
+  out.line_loads.resize(kTwinHeight);
   for (const PlainTriangle& t : plain) {
-    auto boxes = plain_edge_boxes(t.corners, kWidth, kHeight, pattern);
+    auto boxes = plain_edge_boxes(t.corners, kTwinWidth, kTwinHeight, pattern);
     if (boxes.empty()) continue;
     *turned_over += t.faces != (area(t.corners) < 0);
     for (UnsortedEdgeBox& unsorted : boxes) {
@@ -51,7 +51,7 @@ Made expected_of(const std::vector<PlainTriangle>& plain, const shape::SamplePat
 }
 
 template <typename T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
   return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
@@ -73,8 +73,8 @@ struct Paths {
     Classified e;
     for (std::uint32_t b = 0; b < diced.triangles().batch_count; ++b) {
       const shape::Batch& batch = diced.triangles().batches[b];
-      raster_kernels(set).classify({kWidth, kHeight, pattern, identity.one_sided, identity.mirrored}, diced.vertices(),
-                                   diced.triangles(), batch, e);
+      raster_kernels(set).classify({kTwinWidth, kTwinHeight, pattern, identity.one_sided, identity.mirrored},
+                                   diced.vertices(), diced.triangles(), batch, e);
       decided += std::popcount(e.decided);
       undecided += std::popcount(e.undecided);
       dropped += static_cast<int>(batch.last - batch.first) - std::popcount(e.decided | e.undecided);
@@ -91,15 +91,15 @@ class SetUpTwins : public testing::Test {
 
   // With each number of samples in turn, and where lights cast and do not.
   void expect_same(const EyePatch& patch, int rate, const PatchIdentity& identity) {
-    const Picture picture{kView, kWidth, kHeight, shape::kSampleCounts[calls % std::size(shape::kSampleCounts)],
-                          calls % 2 == 1};
+    const Picture picture{kTwinView, kTwinWidth, kTwinHeight,
+                          shape::kSampleCounts[calls % std::size(shape::kSampleCounts)], calls % 2 == 1};
     ++calls;
     const shape::SamplePattern& pattern = shape::sample_pattern(picture.samples);
     Made expected;
     for (auto& [set, dicer] : dicers) {
-      dicer.dice(patch, kView, shape::steps(rate));
+      dicer.dice(patch, kTwinView, shape::steps(rate));
       if (set == dicers[0].first) {
-        expected = expected_of(plain_set_up(dicer, kView, identity, picture.casting), pattern, identity.moving,
+        expected = expected_of(plain_set_up(dicer, kTwinView, identity, picture.casting), pattern, identity.moving,
                                &paths.turned_over);
         paths.count(set, pattern, dicer, identity);
         paths.edge_boxes += static_cast<int>(expected.edge_boxes);
@@ -107,8 +107,8 @@ class SetUpTwins : public testing::Test {
       for (const Way way : {Way::at_a_time, Way::plainly}) {
         SCOPED_TRACE(std::string(simd::name_of(set)) + (way == Way::plainly ? ", plainly" : ", at a time"));
         const Made made = set_up(set, picture, dicer, identity, way);
-        ASSERT_TRUE(same_bits(made.triangles, expected.triangles));
-        ASSERT_TRUE(same_bits(made.boxes, expected.boxes));
+        ASSERT_TRUE(same_bytes(made.triangles, expected.triangles));
+        ASSERT_TRUE(same_bytes(made.boxes, expected.boxes));
         ASSERT_EQ(made.line_loads, expected.line_loads);
         ASSERT_EQ(made.touching, expected.touching);
         ASSERT_EQ(made.edge_boxes, expected.edge_boxes);
@@ -128,7 +128,7 @@ PatchIdentity random_identity(shape::Random& random) {
 
 // The place seen at (x, y) pixels from the picture's left and top.
 shape::Vec3 seen_at(double x, double y, double away) {
-  return {(x - kView.center[0]) / kScale * away, -(y - kView.center[1]) / kScale * away, -away};
+  return {(x - kTwinView.center[0]) / kScale * away, -(y - kTwinView.center[1]) / kScale * away, -away};
 }
 
 EyePatch bilinear(const shape::Vec3 (&corner)[4]) {
@@ -146,7 +146,8 @@ EyePatch bilinear(const shape::Vec3 (&corner)[4]) {
 using MakePatch = std::function<EyePatch(shape::Random&)>;
 
 EyePatch crumpled(shape::Random& random) {
-  return shape::random_patch(random, seen_at(random.real(0, kWidth), random.real(0, kHeight), random.real(3, 8)),
+  return shape::random_patch(random,
+                             seen_at(random.real(0, kTwinWidth), random.real(0, kTwinHeight), random.real(3, 8)),
                              std::pow(10, random.real(-3, 0.5)));
 }
 
@@ -177,10 +178,11 @@ EyePatch beyond_the_picture(shape::Random& random) {
 }
 
 EyePatch over_the_border(shape::Random& random) {
-  const double x = random.whole(0, 1) * kWidth, y = random.whole(0, 1) * kHeight;
-  return shape::random_patch(
-      random, random.whole(0, 1) ? seen_at(x, random.real(0, kHeight), 4) : seen_at(random.real(0, kWidth), y, 4),
-      std::pow(10, random.real(-2, 0)));
+  const double x = random.whole(0, 1) * kTwinWidth, y = random.whole(0, 1) * kTwinHeight;
+  return shape::random_patch(random,
+                             random.whole(0, 1) ? seen_at(x, random.real(0, kTwinHeight), 4)
+                                                : seen_at(random.real(0, kTwinWidth), y, 4),
+                             std::pow(10, random.real(-2, 0)));
 }
 
 // Cut by near, where they are large by the guard band too, and where they are largest by far.
@@ -189,7 +191,7 @@ EyePatch through_the_eye(shape::Random& random) {
 }
 
 EyePatch ball(shape::Random& random) {
-  return shape::sphere_octant(seen_at(random.real(0, kWidth), random.real(0, kHeight), 5),
+  return shape::sphere_octant(seen_at(random.real(0, kTwinWidth), random.real(0, kTwinHeight), 5),
                               std::pow(10, random.real(-2, 0.2)));
 }
 
@@ -240,8 +242,8 @@ TEST_F(SetUpTwins, MakeTheSameOfAllKindsOfPatches) {
 TEST_F(SetUpTwins, MakeTheSameOfWhatSnappingTurnsOver) {
   shape::Random random(82);
   for (int trial = 0; trial < 1000; ++trial) {
-    const double x = random.real(0, kWidth), y = random.real(0, kHeight), to_x = random.real(0, kWidth),
-                 to_y = random.real(0, kHeight);
+    const double x = random.real(0, kTwinWidth), y = random.real(0, kTwinHeight), to_x = random.real(0, kTwinWidth),
+                 to_y = random.real(0, kTwinHeight);
     const auto near = [&](double place) { return place + random.real(-1, 1) / 256; };
     expect_same(bilinear({seen_at(near(x), near(y), 3), seen_at(near(to_x), near(to_y), 4),
                           seen_at(near(to_x), near(to_y), 4), seen_at(near(x), near(y), 3)}),
@@ -273,7 +275,7 @@ TEST_F(SetUpTwins, MakeTheSameWhereDecidingEnds) {
                        y[4] = {top + height, top + height - b, top, top + b};
     const bool turned = random.whole(0, 1) == 1;
     const EyePatch patch = turned ? planted(random, y, x) : planted(random, x, y);
-    dicers[0].second.dice(patch, kView, shape::steps(1));
+    dicers[0].second.dice(patch, kTwinView, shape::steps(1));
     const std::int32_t* snapped = dicers[0].second.vertices().x;
     ASSERT_EQ(std::set(snapped, snapped + dicers[0].second.vertex_count()),
               turned ? std::set(y, y + 4) : std::set(x, x + 4));

@@ -15,16 +15,17 @@
 namespace mars::raster {
 namespace {
 
-constexpr std::uint32_t kWidth = 10, kHeight = 12, kSamples = 4, kInterval = 7;
-constexpr geometry::LineRange kAll{0, kHeight};
+constexpr std::uint32_t kStillWidth = 10, kStillHeight = 12, kSamples = 4, kInterval = 7;
+constexpr geometry::LineRange kAll{0, kStillHeight};
 
 // Bytes for `lines` lines with `groups` groups a column.
 std::uint64_t bytes_for(std::uint32_t lines, std::uint32_t groups) {
-  const std::uint64_t line = wire::still_head_bytes(kWidth) +
-                             kWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
+  const std::uint64_t line =
+      wire::still_head_bytes(kStillWidth) +
+      kStillWidth * (kSamples * sizeof(float) + sizeof(std::uint32_t) + groups * sizeof(StillGroup));
   return lines * ((line + 63) / 64 * 64);
 }
-const std::uint64_t kAmple = bytes_for(kHeight, kSamples);
+const std::uint64_t kAmple = bytes_for(kStillHeight, kSamples);
 
 // On a node that is alone.
 void as_node(const std::function<void(const Neighbours&)>& node) {
@@ -37,7 +38,7 @@ void as_node(const std::function<void(const Neighbours&)>& node) {
 }
 
 StillLines lines_of(const Neighbours& neighbours, std::uint64_t bytes, std::uint32_t samples = kSamples) {
-  return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes};
+  return {neighbours, kStillWidth, kStillHeight, shape::sample_pattern(samples), bytes};
 }
 
 // As it travels.
@@ -48,7 +49,7 @@ std::vector<std::byte> packed(const StillLines& still, std::uint32_t line) {
 }
 
 // Of `groups` groups evenly over the columns: where column `x` ends, and whether it has any.
-std::uint32_t end_of(std::uint32_t x, std::uint32_t groups) { return groups * (x + 1) / kWidth; }
+std::uint32_t end_of(std::uint32_t x, std::uint32_t groups) { return groups * (x + 1) / kStillWidth; }
 bool shows(std::uint32_t x, std::uint32_t groups) { return end_of(x, groups) > (x == 0 ? 0 : end_of(x - 1, groups)); }
 
 // Where nothing is seen, there is no depth.
@@ -60,9 +61,9 @@ float depth_of(std::uint32_t line, std::uint32_t sample, std::uint32_t x, std::u
 bool write(StillLines& still, std::uint32_t line, std::uint32_t groups) {
   if (!still.begin_line(line, groups)) return false;
   for (std::uint32_t s = 0; s < kSamples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = depth_of(line, s, x, groups);
+    for (std::uint32_t x = 0; x < kStillWidth; ++x) still.depth(line, s)[x] = depth_of(line, s, x, groups);
   const StillGroups out = still.groups(line);
-  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = end_of(x, groups);
+  for (std::uint32_t x = 0; x < kStillWidth; ++x) out.end[x] = end_of(x, groups);
   for (std::uint32_t k = 0; k < groups; ++k)
     out.groups[k] = {{static_cast<float>(line), 0.5f, static_cast<float>(k)}, k};
   return true;
@@ -71,9 +72,9 @@ bool write(StillLines& still, std::uint32_t line, std::uint32_t groups) {
 void expect_kept(StillLines& still, std::uint32_t line, std::uint32_t groups) {
   ASSERT_TRUE(still.keeps(line)) << line;
   for (std::uint32_t s = 0; s < kSamples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(still.depth(line, s)[x], depth_of(line, s, x, groups));
+    for (std::uint32_t x = 0; x < kStillWidth; ++x) ASSERT_EQ(still.depth(line, s)[x], depth_of(line, s, x, groups));
   std::uint32_t k = 0;
-  for (std::uint32_t x = 0; x < kWidth; ++x)
+  for (std::uint32_t x = 0; x < kStillWidth; ++x)
     for (const StillGroup& group : still.groups(line).of(x)) {
       ASSERT_EQ(group.light[0], static_cast<float>(line));
       ASSERT_EQ(group.light[2], static_cast<float>(k));
@@ -94,12 +95,12 @@ TEST(StillLines, LinesComeBackAsTheyWereWritten) {
 
 TEST(StillLines, ALineWithMoreGroupsThanFitIsNotKept) {
   as_node([](const Neighbours& alone) {
-    StillLines still = lines_of(alone, bytes_for(kHeight, 2));
+    StillLines still = lines_of(alone, bytes_for(kStillHeight, 2));
     still.begin_interval(kInterval, kAll);
-    EXPECT_TRUE(write(still, 0, 2 * kWidth));
-    EXPECT_FALSE(write(still, 1, 2 * kWidth + 1));
+    EXPECT_TRUE(write(still, 0, 2 * kStillWidth));
+    EXPECT_FALSE(write(still, 1, 2 * kStillWidth + 1));
     EXPECT_TRUE(write(still, 2, 0));
-    expect_kept(still, 0, 2 * kWidth);
+    expect_kept(still, 0, 2 * kStillWidth);
     EXPECT_FALSE(still.keeps(1));
     expect_kept(still, 2, 0);
     EXPECT_FALSE(still.keeps(3)) << "not written";
@@ -112,9 +113,9 @@ TEST(StillLines, WhereFewLinesFitTheOthersAreNotKept) {
     StillLines still = lines_of(alone, bytes_for(3, 1));
     for (const std::uint32_t first : {0u, 5u}) {
       still.begin_interval(kInterval + first, {first, first + 6});
-      for (std::uint32_t k = 0; k < 6; ++k) EXPECT_EQ(write(still, first + k, kWidth), k < 3);
+      for (std::uint32_t k = 0; k < 6; ++k) EXPECT_EQ(write(still, first + k, kStillWidth), k < 3);
       for (std::uint32_t k = 0; k < 6; ++k) EXPECT_EQ(still.keeps(first + k), k < 3);
-      for (std::uint32_t k = 0; k < 3; ++k) expect_kept(still, first + k, kWidth);
+      for (std::uint32_t k = 0; k < 3; ++k) expect_kept(still, first + k, kStillWidth);
     }
     StillLines none = lines_of(alone, 0);
     none.begin_interval(kInterval, kAll);
@@ -128,10 +129,10 @@ TEST(StillLines, LinesOfAnEarlierIntervalAreNotKept) {
   as_node([](const Neighbours& alone) {
     StillLines still = lines_of(alone, kAmple);
     still.begin_interval(kInterval, kAll);
-    for (std::uint32_t line = 0; line < kHeight; ++line) write(still, line, 5);
+    for (std::uint32_t line = 0; line < kStillHeight; ++line) write(still, line, 5);
     still.begin_interval(kInterval + 1, kAll);
     write(still, 4, 5);
-    for (std::uint32_t line = 0; line < kHeight; ++line) EXPECT_EQ(still.keeps(line), line == 4) << line;
+    for (std::uint32_t line = 0; line < kStillHeight; ++line) EXPECT_EQ(still.keeps(line), line == 4) << line;
   });
 }
 
@@ -140,9 +141,9 @@ TEST(StillLines, LinesOfAnotherFirstLineAreNotKept) {
   as_node([](const Neighbours& alone) {
     StillLines still = lines_of(alone, kAmple);
     still.begin_interval(kInterval, kAll);
-    for (std::uint32_t line = 0; line < kHeight; ++line) write(still, line, 5);
-    still.begin_interval(kInterval, {3, kHeight});
-    for (std::uint32_t line = 0; line < kHeight; ++line) EXPECT_FALSE(still.keeps(line)) << line;
+    for (std::uint32_t line = 0; line < kStillHeight; ++line) write(still, line, 5);
+    still.begin_interval(kInterval, {3, kStillHeight});
+    for (std::uint32_t line = 0; line < kStillHeight; ++line) EXPECT_FALSE(still.keeps(line)) << line;
     write(still, 3, 5);
     expect_kept(still, 3, 5);
   });
@@ -154,13 +155,13 @@ TEST(StillLines, TravelBetweenMachinesWithMoreAndLessMemory) {
     StillLines ample = lines_of(alone, kAmple), small = lines_of(alone, bytes_for(4, 1));
     ample.begin_interval(kInterval, {1, 8});
     small.begin_interval(kInterval, {1, 8});
-    for (std::uint32_t line = 1; line < 8; ++line) write(ample, line, line == 2 ? 3 * kWidth : kWidth);
+    for (std::uint32_t line = 1; line < 8; ++line) write(ample, line, line == 2 ? 3 * kStillWidth : kStillWidth);
     for (std::uint32_t line = 7; line >= 1; --line) small.unpack(packed(ample, line));
     for (std::uint32_t line = 1; line < 8; ++line) {
       if (line == 2 || line > 4)
         EXPECT_FALSE(small.keeps(line)) << line;
       else
-        expect_kept(small, line, kWidth);
+        expect_kept(small, line, kStillWidth);
     }
     ample.begin_interval(kInterval + 1, {1, 8});
     small.begin_interval(kInterval + 1, {1, 8});
@@ -189,9 +190,9 @@ TEST(StillLines, OfOtherMachinesAreSound) {
       EXPECT_FALSE(still.is_packed(std::span(sound).first(size))) << size;
     for (std::size_t at = 0; at < 16; at += 4)
       EXPECT_FALSE(takes(still, sound, at, 99)) << "byte " << at << " of its head";
-    const std::size_t counts = wire::still_head_bytes(kWidth),
+    const std::size_t counts = wire::still_head_bytes(kStillWidth),
                       groups = sound.size() - 5 * wire::still_packed_group_bytes(0);
-    EXPECT_EQ(groups, counts + kWidth + 5 * wire::still_packed_bytes(kSamples, 0)) << "five columns have a group";
+    EXPECT_EQ(groups, counts + kStillWidth + 5 * wire::still_packed_bytes(kSamples, 0)) << "five columns have a group";
     EXPECT_FALSE(takes(still, sound, counts, 1)) << "more groups than the line has";
     EXPECT_FALSE(takes(still, sound, counts + 1, 0)) << "fewer";
     EXPECT_FALSE(takes(still, sound, counts + 1, kSamples + 1)) << "more than a pixel has samples";
@@ -205,16 +206,16 @@ TEST(StillLines, OfOtherMachinesAreSound) {
 TEST(StillLines, WithOneSampleAllLinesAreKept) {
   as_node([](const Neighbours& alone) {
     StillLines still = lines_of(alone, 0, 1);
-    still.begin_interval(kInterval, {2, kHeight});
-    for (std::uint32_t line = 2; line < kHeight; ++line) {
+    still.begin_interval(kInterval, {2, kStillHeight});
+    for (std::uint32_t line = 2; line < kStillHeight; ++line) {
       ASSERT_TRUE(still.begin_line(line, 0));
       std::ranges::fill(still.depth(line, 0), static_cast<float>(line));
     }
     EXPECT_FALSE(still.keeps(1));
-    std::vector<float> depths(3 * kWidth);
+    std::vector<float> depths(3 * kStillWidth);
     ASSERT_EQ(still.depth_bytes({3, 6}), std::span(depths).size_bytes());
     still.pack_depths({3, 6}, std::as_writable_bytes(std::span(depths)).data());
-    for (std::uint32_t k = 0; k < depths.size(); ++k) EXPECT_EQ(depths[k], static_cast<float>(3 + k / kWidth));
+    for (std::uint32_t k = 0; k < depths.size(); ++k) EXPECT_EQ(depths[k], static_cast<float>(3 + k / kStillWidth));
     still.begin_interval(kInterval + 1, kAll);
     EXPECT_TRUE(still.keeps(11)) << "whoever reads lines waits until they are written";
   });
@@ -223,11 +224,11 @@ TEST(StillLines, WithOneSampleAllLinesAreKept) {
 constexpr std::uint32_t kCasting = 2;
 
 StillLines casting_lines_of(const Neighbours& neighbours, std::uint64_t bytes, std::uint32_t samples) {
-  return {neighbours, kWidth, kHeight, shape::sample_pattern(samples), bytes, kCasting};
+  return {neighbours, kStillWidth, kStillHeight, shape::sample_pattern(samples), bytes, kCasting};
 }
 
 wire::StillPairs pairs_of(std::uint32_t line, std::uint32_t p, std::uint32_t groups) {
-  if (!shows(p % kWidth, groups)) return {0, 0};
+  if (!shows(p % kStillWidth, groups)) return {0, 0};
   return {static_cast<std::uint16_t>(100 * line + p), static_cast<std::uint16_t>(~p)};
 }
 
@@ -235,10 +236,10 @@ wire::StillPairs pairs_of(std::uint32_t line, std::uint32_t p, std::uint32_t gro
 bool write_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups, std::uint32_t samples) {
   if (!still.begin_line(line, groups)) return false;
   for (std::uint32_t s = 0; s < samples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x) still.depth(line, s)[x] = depth_of(line, s, x, groups);
+    for (std::uint32_t x = 0; x < kStillWidth; ++x) still.depth(line, s)[x] = depth_of(line, s, x, groups);
   const UnsummedStill out = still.unsummed(line);
-  for (std::uint32_t x = 0; x < kWidth; ++x) out.end[x] = end_of(x, groups);
-  for (std::uint32_t p = 0; p < kCasting * kWidth; ++p) out.pairs[p] = pairs_of(line, p, groups);
+  for (std::uint32_t x = 0; x < kStillWidth; ++x) out.end[x] = end_of(x, groups);
+  for (std::uint32_t p = 0; p < kCasting * kStillWidth; ++p) out.pairs[p] = pairs_of(line, p, groups);
   for (std::uint32_t k = 0; k < groups; ++k) {
     wire::UnsummedGroup& group = out.group(k);
     group = {k % (1u << samples), 0.25f, {static_cast<float>(line), 0.5f, static_cast<float>(k)}};
@@ -250,10 +251,10 @@ bool write_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups,
 void expect_unsummed(StillLines& still, std::uint32_t line, std::uint32_t groups, std::uint32_t samples) {
   ASSERT_TRUE(still.keeps(line)) << line;
   for (std::uint32_t s = 0; s < samples; ++s)
-    for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(still.depth(line, s)[x], depth_of(line, s, x, groups));
+    for (std::uint32_t x = 0; x < kStillWidth; ++x) ASSERT_EQ(still.depth(line, s)[x], depth_of(line, s, x, groups));
   const UnsummedStill kept = still.unsummed(line);
-  for (std::uint32_t x = 0; x < kWidth; ++x) ASSERT_EQ(kept.end[x], end_of(x, groups));
-  for (std::uint32_t p = 0; p < kCasting * kWidth; ++p) {
+  for (std::uint32_t x = 0; x < kStillWidth; ++x) ASSERT_EQ(kept.end[x], end_of(x, groups));
+  for (std::uint32_t p = 0; p < kCasting * kStillWidth; ++p) {
     ASSERT_EQ(kept.pairs[p].lit, pairs_of(line, p, groups).lit);
     ASSERT_EQ(kept.pairs[p].blocked, pairs_of(line, p, groups).blocked);
   }
@@ -273,7 +274,7 @@ TEST(StillLines, WhereLightsCastComeBackAndTravel) {
     for (const std::uint32_t samples : {1u, 4u}) {
       StillLines still = casting_lines_of(alone, 1 << 20, samples), other = casting_lines_of(alone, 1 << 20, samples);
       EXPECT_TRUE(still.has_groups());
-      const std::uint32_t most = samples * kWidth;
+      const std::uint32_t most = samples * kStillWidth;
       for (StillLines* lines : {&still, &other}) lines->begin_interval(kInterval, {1, 8});
       for (std::uint32_t line = 1; line < 7; ++line) ASSERT_TRUE(write_unsummed(still, line, most - line, samples));
       for (std::uint32_t line = 1; line < 7; ++line) expect_unsummed(still, line, most - line, samples);
@@ -291,20 +292,20 @@ TEST(StillLines, WhereLightsCastComeBackAndTravel) {
 
 TEST(StillLines, WhereLightsCastThatDoNotFitAreNotKept) {
   as_node([](const Neighbours& alone) {
-    const wire::StillPlan ample = wire::plan_still_lines(kWidth, kHeight, kSamples, 1 << 20, kCasting);
+    const wire::StillPlan ample = wire::plan_still_lines(kStillWidth, kStillHeight, kSamples, 1 << 20, kCasting);
     EXPECT_EQ(ample.groups_per_column, kSamples);
-    EXPECT_EQ(ample.lines, kHeight);
+    EXPECT_EQ(ample.lines, kStillHeight);
     for (const std::uint64_t lines : {0u, 1u, 3u}) {
       StillLines still = casting_lines_of(alone, lines * ample.line_bytes, kSamples);
       still.begin_interval(kInterval, kAll);
       std::uint32_t kept = 0;
-      for (std::uint32_t line = 0; line < kHeight; ++line) {
-        const bool written = write_unsummed(still, line, kWidth, kSamples);
+      for (std::uint32_t line = 0; line < kStillHeight; ++line) {
+        const bool written = write_unsummed(still, line, kStillWidth, kSamples);
         EXPECT_EQ(still.keeps(line), written);
         kept += written ? 1 : 0;
       }
       EXPECT_GE(kept, lines);
-      for (std::uint32_t line = 0; line < kept; ++line) expect_unsummed(still, line, kWidth, kSamples);
+      for (std::uint32_t line = 0; line < kept; ++line) expect_unsummed(still, line, kStillWidth, kSamples);
     }
   });
 }
@@ -319,8 +320,8 @@ TEST(StillLines, WhereLightsCastOfOtherMachinesAreSound) {
     const std::size_t group = wire::still_packed_group_bytes(kCasting);
     for (const std::size_t less : {std::size_t{1}, std::size_t{4}, group, 5 * group, sound.size()})
       EXPECT_FALSE(still.is_packed(std::span(sound).first(sound.size() - less))) << less;
-    const std::size_t counts = wire::still_head_bytes(kWidth), groups = sound.size() - 5 * group;
-    EXPECT_FALSE(takes(still, sound, counts + kWidth - 1, 2)) << "more groups than the line has";
+    const std::size_t counts = wire::still_head_bytes(kStillWidth), groups = sound.size() - 5 * group;
+    EXPECT_FALSE(takes(still, sound, counts + kStillWidth - 1, 2)) << "more groups than the line has";
     EXPECT_FALSE(takes(still, sound, groups + group, 0xff)) << "more samples than a pixel has";
     EXPECT_TRUE(takes(still, sound, groups - 1, 0xff)) << "any pairs";
     EXPECT_TRUE(takes(still, sound, groups + 4, 0xff)) << "light of any amount";
@@ -335,7 +336,7 @@ bool is_marked(std::uint32_t column) { return column / wire::kStillTile == 1 || 
 
 void mark(StillLines& still) {
   still.marks().clear();
-  for (const std::uint32_t tile : kMarked) still.marks().mark({0, kHeight}, {8 * tile, 8 * tile + 1});
+  for (const std::uint32_t tile : kMarked) still.marks().mark({0, kStillHeight}, {8 * tile, 8 * tile + 1});
 }
 
 // Three groups on the first column of each marked tile; depths and pairs there, and on columns that are not kept.
@@ -396,7 +397,7 @@ TEST(StillLines, AreKeptOnMarkedColumnsAlone) {
   as_node([](const Neighbours& alone) {
     for (const std::uint32_t casting : {0u, kCasting}) {
       const auto lines = [&] {
-        return StillLines(alone, kWide, kHeight, shape::sample_pattern(kSamples), 1 << 20, casting);
+        return StillLines(alone, kWide, kStillHeight, shape::sample_pattern(kSamples), 1 << 20, casting);
       };
       StillLines home = lines(), other = lines();
       for (StillLines* still : {&home, &other}) {
@@ -426,7 +427,7 @@ TEST(StillLines, ALineWithoutColumnsIsKept) {
     home.marks().clear();
     ASSERT_TRUE(home.begin_line(5, 0));
     const auto bytes = packed(home, 5);
-    EXPECT_EQ(bytes.size(), wire::still_head_bytes(kWidth));
+    EXPECT_EQ(bytes.size(), wire::still_head_bytes(kStillWidth));
     ASSERT_TRUE(other.is_packed(bytes));
     other.unpack(bytes);
     EXPECT_TRUE(other.keeps(5));
@@ -436,7 +437,7 @@ TEST(StillLines, ALineWithoutColumnsIsKept) {
 
 TEST(StillLines, MarkedColumnsOfOtherMachinesAreSound) {
   as_node([](const Neighbours& alone) {
-    StillLines still(alone, kWide, kHeight, shape::sample_pattern(kSamples), 1 << 20, kCasting);
+    StillLines still(alone, kWide, kStillHeight, shape::sample_pattern(kSamples), 1 << 20, kCasting);
     still.begin_interval(kInterval, {1, 8});
     mark(still);
     write_marked(still, 3, kCasting);
@@ -456,12 +457,12 @@ TEST(StillLines, MarkedColumnsOfOtherMachinesAreSound) {
 // CZB alone: all nodes know the columns.
 TEST(StillLines, WithOneSampleMarkedColumnsTravel) {
   as_node([](const Neighbours& alone) {
-    StillLines home(alone, kWide, kHeight, shape::sample_pattern(1), 0),
-        other(alone, kWide, kHeight, shape::sample_pattern(1), 0);
+    StillLines home(alone, kWide, kStillHeight, shape::sample_pattern(1), 0),
+        other(alone, kWide, kStillHeight, shape::sample_pattern(1), 0);
     std::vector<float> depths(kWide);
     for (std::uint32_t x = 0; x < kWide; ++x) depths[x] = static_cast<float>(x + 1);
     for (StillLines* still : {&home, &other}) {
-      still->begin_interval(kInterval, {2, kHeight});
+      still->begin_interval(kInterval, {2, kStillHeight});
       mark(*still);
     }
     for (std::uint32_t line = 3; line < 6; ++line) {

@@ -10,7 +10,7 @@
 namespace mars::raster {
 namespace {
 
-constexpr std::uint32_t kHeight = 21;
+constexpr std::uint32_t kMarkedHeight = 21;
 
 std::vector<bool> marked_columns(const StillMarks& marks, std::uint32_t line, std::uint32_t width) {
   std::vector<bool> columns(width);
@@ -27,20 +27,20 @@ std::vector<bool> marked_columns(const StillMarks& marks, std::uint32_t line, st
 TEST(StillMarks, AreTheTilesOfThePixelsMarked) {
   shape::Random random(3);
   for (const std::uint32_t width : {1u, 8u, 9u, 100u, 511u, 512u, 513u, 1030u}) {
-    StillMarks marks(width, kHeight);
-    std::vector<std::vector<bool>> plain(kHeight, std::vector<bool>(width));
+    StillMarks marks(width, kMarkedHeight);
+    std::vector<std::vector<bool>> plain(kMarkedHeight, std::vector<bool>(width));
     const auto number = [&](std::uint32_t below) { return static_cast<std::uint32_t>(random.real(0, below)); };
     for (int k = 0; k < 5; ++k) {
-      const std::uint32_t top = number(kHeight), left = number(width);
-      const geometry::LineRange lines{top, std::min(kHeight, top + number(9))};
+      const std::uint32_t top = number(kMarkedHeight), left = number(width);
+      const geometry::LineRange lines{top, std::min(kMarkedHeight, top + number(9))};
       const geometry::ColumnRange columns{left, std::min(width, left + number(70))};
       marks.mark(lines, columns);
       for (std::uint32_t y = lines.first; y < lines.last; ++y)
         for (std::uint32_t x = columns.first; x < columns.last; ++x)
-          for (std::uint32_t v = y / 8 * 8; v < std::min(kHeight, y / 8 * 8 + 8); ++v)
+          for (std::uint32_t v = y / 8 * 8; v < std::min(kMarkedHeight, y / 8 * 8 + 8); ++v)
             for (std::uint32_t u = x / 8 * 8; u < std::min(width, x / 8 * 8 + 8); ++u) plain[v][u] = true;
     }
-    for (std::uint32_t y = 0; y < kHeight; ++y) {
+    for (std::uint32_t y = 0; y < kMarkedHeight; ++y) {
       ASSERT_EQ(marked_columns(marks, y, width), plain[y]) << width << " columns, line " << y;
       std::uint32_t count = 0;
       for (std::uint32_t x = 0; x < width; ++x) {
@@ -72,10 +72,10 @@ TEST(StillMarks, OtherColumnsAreTheRest) {
 }
 
 TEST(StillMarks, AllAndNone) {
-  StillMarks marks(517, kHeight);
+  StillMarks marks(517, kMarkedHeight);
   EXPECT_FALSE(any(marks.on(0)));
   marks.mark_all();
-  for (std::uint32_t y = 0; y < kHeight; ++y) EXPECT_EQ(count_columns(marks.on(y), 517), 517u);
+  for (std::uint32_t y = 0; y < kMarkedHeight; ++y) EXPECT_EQ(count_columns(marks.on(y), 517), 517u);
   marks.clear();
   marks.mark_tile(wire::still_tiles(517) + 1);
   EXPECT_EQ(count_columns(marks.on(7), 517), 0u);

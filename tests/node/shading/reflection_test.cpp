@@ -24,10 +24,10 @@ constexpr wire::Reflection kModels[] = {wire::Reflection::phong, wire::Reflectio
                                         wire::Reflection::cook_torrance, wire::Reflection::metallic_roughness};
 constexpr wire::Reflection kPhysical[] = {wire::Reflection::cook_torrance, wire::Reflection::metallic_roughness};
 
-simd::InstructionSet best() { return simd::best_instruction_set(""); }
+simd::InstructionSet best_set() { return simd::best_instruction_set(""); }
 
 Vec3 scaled(double factor, const Vec3& a) { return {factor * a[0], factor * a[1], factor * a[2]}; }
-Vec3 unit(const Vec3& a) { return scaled(1 / shape::length(a), a); }
+Vec3 unit_direction(const Vec3& a) { return scaled(1 / shape::length(a), a); }
 Vec3 direction(double cosine, double turn) {
   const double sine = std::sqrt(1 - cosine * cosine);
   return {sine * std::cos(turn), sine * std::sin(turn), cosine};
@@ -56,7 +56,8 @@ class Probe {
   // A direction to the light from a surface whose normal is z and which is seen from `view`.
   void add(const Vec3& light, const Vec3& view) {
     // Turned so that the light is along a fixed direction and the rest as before.
-    const Vec3 w = light, u = unit(std::abs(w[2]) < 0.9 ? shape::cross({0, 0, 1}, w) : shape::cross({1, 0, 0}, w)),
+    const Vec3 w = light,
+               u = unit_direction(std::abs(w[2]) < 0.9 ? shape::cross({0, 0, 1}, w) : shape::cross({1, 0, 0}, w)),
                v = shape::cross(w, u);
     const auto turned = [&](const Vec3& a) { return Vec3{dot(a, u), dot(a, v), dot(a, w)}; };
     spots_.push_back({scaled(-5, turned(view)), turned({0, 0, 1})});
@@ -66,7 +67,7 @@ class Probe {
     frame.material = material;
     frame.shading.ambient = {{}, {}};
     frame.lights = {directional({0, 0, 1})};
-    return light_of(frame, spots_, best());
+    return light_of(frame, spots_, best_set());
   }
 
  private:
@@ -194,7 +195,7 @@ TEST(Reflection, OnASphere) {
   for (const wire::Reflection model : kModels) {
     Frame frame;
     frame.material = material(model, 0.4f, 0.3f);
-    frame.lights = {directional(unit({1, 0.5, 0.7}))};
+    frame.lights = {directional(unit_direction({1, 0.5, 0.7}))};
     frame.shading.ambient = {{0.1f, 0.1f, 0.3f}, {0.2f, 0.1f, 0}};
     frame.material.ambient = 0.5f;
     std::vector<Spot> spots;
@@ -202,7 +203,7 @@ TEST(Reflection, OnASphere) {
       const Vec3 normal = direction(random.real(0.25, 1), random.real(0, 2 * kPi));
       spots.push_back({{2 * normal[0], 2 * normal[1], 2 * normal[2] - 10}, normal});
     }
-    const Colors colors = light_of(frame, spots, best());
+    const Colors colors = light_of(frame, spots, best_set());
     for (std::size_t k = 0; k < spots.size(); ++k) {
       const Vec3 right = plain_light(frame.view(), frame.material, spots[k]);
       for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(colors[c][k], right[c], 2e-4 * right[c] + 2e-6);
@@ -220,7 +221,7 @@ TEST(Lights, ConeAndReach) {
   spot.reach = 4;
   const auto bright = [&](double cosine, double distance) {
     const Vec3 place = scaled(distance, {std::sqrt(1 - cosine * cosine), 0, -cosine});
-    return light_of(frame, {{place, scaled(-1 / distance, place)}}, best())[0][0];
+    return light_of(frame, {{place, scaled(-1 / distance, place)}}, best_set())[0][0];
   };
   EXPECT_NEAR(bright(1, 4), 0.5, 1e-6) << "half at its reach";
   EXPECT_NEAR(bright(0.91, 8), 0.2, 1e-6) << "fully within the inner cone";
@@ -255,7 +256,7 @@ TEST(Environment, LightsSurfaces) {
       const auto light = [&](float metallic) {
         frame.material = material(wire::Reflection::metallic_roughness, rough, metallic);
         frame.material.ambient = 1;
-        return light_of(frame, {{{0, 0, -3}, direction(cosine, 1)}}, best())[0][0];
+        return light_of(frame, {{{0, 0, -3}, direction(cosine, 1)}}, best_set())[0][0];
       };
       EXPECT_NEAR(light(0), 1, 1e-5);
       const float of_metal = light(1);
@@ -271,7 +272,9 @@ TEST(Environment, SkyAndGround) {
     frame.material.ambient = 1;
     // The eye sees 45 degrees up in a mirror that leans back by as much, and down in one that leans forward.
     const Colors colors = light_of(
-        frame, {{{0, 0, -3}, unit({0, 1, 1})}, {{0, 0, -3}, unit({0, -1, 1})}, {{0, 0, -3}, {0, 0, 1}}}, best());
+        frame,
+        {{{0, 0, -3}, unit_direction({0, 1, 1})}, {{0, 0, -3}, unit_direction({0, -1, 1})}, {{0, 0, -3}, {0, 0, 1}}},
+        best_set());
     EXPECT_GT(colors[0][0], colors[2][0]);
     EXPECT_LT(colors[0][1], colors[2][1]);
     EXPECT_NEAR(colors[0][2], colors[2][2], 1e-6);
@@ -313,7 +316,7 @@ TEST(Extremes, LightIsAlwaysANumber) {
       spots.push_back({{place[0], place[1], place[2] == 0 ? -1e-9 : place[2]},
                        random.whole(0, 4) ? direction(random.real(-1, 1), random.real(0, 7)) : Vec3{}});
     }
-    const Colors colors = light_of(frame, spots, best());
+    const Colors colors = light_of(frame, spots, best_set());
     for (const auto& plane : colors)
       for (const float color : plane) EXPECT_TRUE(color >= 0 && color <= 1e30f) << color << ", trial " << trial;
     for (const simd::InstructionSet set : simd::all_sets())
@@ -331,7 +334,7 @@ TEST(Extremes, SixtyFourLightsAtTheirMost) {
   for (const wire::Reflection model : kModels) {
     frame.material = material(model, 0, 1);
     const double right = plain_light(frame.view(), frame.material, {{0, 0, -3}, {0, 0, 1}})[0];
-    EXPECT_NEAR(light_of(frame, {{{0, 0, -3}, {0, 0, 1}}}, best())[0][0], right, 4e-2 * right);
+    EXPECT_NEAR(light_of(frame, {{{0, 0, -3}, {0, 0, 1}}}, best_set())[0][0], right, 4e-2 * right);
   }
 }
 

@@ -23,13 +23,13 @@ using shape::Vec3;
 constexpr std::uint32_t kLine = 100;
 const shape::Projection kView = shape::projection(640, 480, 2);
 
-Vec3 unit(const Vec3& a) {
+Vec3 unit_vector(const Vec3& a) {
   const double l = shape::length(a);
   return {a[0] / l, a[1] / l, a[2] / l};
 }
 
 // Triangles whose planes are before the eye about the line, with normals of their own.
-struct Scenery {
+struct UnsummedScenery {
   std::vector<geometry::Triangle> triangles;
   std::vector<Vec3> planes, normals;
   std::vector<wire::Material> materials;
@@ -75,10 +75,10 @@ struct Scenery {
 };
 
 Vec3 random_unit(Random& random, double least_z) {
-  return unit({random.real(-1, 1), random.real(-1, 1), random.real(least_z, 1)});
+  return unit_vector({random.real(-1, 1), random.real(-1, 1), random.real(least_z, 1)});
 }
 
-geometry::EyeLight random_light(Random& random) {
+geometry::EyeLight random_eye_light(Random& random) {
   geometry::EyeLight light{};
   light.kind = static_cast<wire::LightKind>(random.whole(0, 2));
   const Vec3 to = random_unit(random, -0.2), axis = random_unit(random, 0.2);
@@ -94,8 +94,8 @@ geometry::EyeLight random_light(Random& random) {
 }
 
 // Normals `apart` from their planes.
-Scenery random_scenery(Random& random, double apart) {
-  Scenery s;
+UnsummedScenery random_unsummed_scenery(Random& random, double apart) {
+  UnsummedScenery s;
   for (std::uint32_t k = 0; k < 5; ++k) {
     wire::Material material{{0.9f, 0.5f, 0.2f}, 0.3f, 0.7f, 0.4f, k == 4 ? 2.5f : 16.0f, 2};
     material.reflection = static_cast<wire::Reflection>(k % 4);
@@ -106,9 +106,9 @@ Scenery random_scenery(Random& random, double apart) {
     const Vec3 n = random_unit(random, 0.5);
     Vec3 normal = n;
     for (double& a : normal) a += random.real(-apart, apart);
-    s.add(n, random.real(2, 9), unit(normal), static_cast<std::uint32_t>(random.whole(0, 4)));
+    s.add(n, random.real(2, 9), unit_vector(normal), static_cast<std::uint32_t>(random.whole(0, 4)));
   }
-  for (int k = random.whole(1, 4); k > 0; --k) s.lights.push_back(random_light(random));
+  for (int k = random.whole(1, 4); k > 0; --k) s.lights.push_back(random_eye_light(random));
   s.casting = static_cast<std::uint32_t>(random.whole(1, static_cast<int>(s.lights.size())));
   if (random.whole(0, 1)) s.fog = {{0.3f, 0.6f, 0.2f}, 1, 12};
   if (random.whole(0, 1)) s.space = wire::ColorSpace::linear;
@@ -135,7 +135,7 @@ struct Unsummed {
   UnsummedLight light{};
 };
 
-Unsummed shade(const Scenery& s, const std::vector<Fragment>& fragments, simd::InstructionSet set) {
+Unsummed unsummed_light_of(const UnsummedScenery& s, const std::vector<Fragment>& fragments, simd::InstructionSet set) {
   Unsummed out(fragments.size(), s.casting);
   shading_kernels(set).shade_unsummed(s.shading(), fragments.data(), static_cast<std::uint32_t>(fragments.size()),
                                       kLine, out.light);
@@ -143,11 +143,11 @@ Unsummed shade(const Scenery& s, const std::vector<Fragment>& fragments, simd::I
   return out;
 }
 
-using Light = std::array<std::vector<float>, 3>;
+using SummedLight = std::array<std::vector<float>, 3>;
 
 template <typename Fill>
-Light light_of(std::size_t count, const Fill& fill) {
-  Light light;
+SummedLight light_of(std::size_t count, const Fill& fill) {
+  SummedLight light;
   for (auto& channel : light) channel.resize(count + simd::kVectorSlack);
   float* const to[3] = {light[0].data(), light[1].data(), light[2].data()};
   fill(to);
@@ -159,16 +159,16 @@ TEST(Unsummed, WhereAllLightArrivesIsLitAsWhereNothingCasts) {
   Random random(91);
   double worst = 0, brightest = 0;
   for (int trial = 0; trial < 60; ++trial) {
-    const Scenery s = random_scenery(random, 0);
+    const UnsummedScenery s = random_unsummed_scenery(random, 0);
     const auto fragments = random_fragments(random);
     const auto count = static_cast<std::uint32_t>(fragments.size());
     const auto& kernels = shading_kernels(simd::best_instruction_set(""));
-    const Unsummed unsummed = shade(s, fragments, simd::best_instruction_set(""));
+    const Unsummed unsummed = unsummed_light_of(s, fragments, simd::best_instruction_set(""));
     const std::vector<float> ones(count + simd::kVectorSlack, 1.0f);
     const std::vector<const float*> shares(s.casting, ones.data());
-    const Light summed = light_of(
+    const SummedLight summed = light_of(
         count, [&](float* const* to) { kernels.sum_up(s.shading(), unsummed.light, shares.data(), count, to); });
-    const Light whole = light_of(
+    const SummedLight whole = light_of(
         count, [&](float* const* to) { kernels.shade_fragments(s.shading(), fragments.data(), count, kLine, to); });
     for (std::size_t c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < count; ++k) {
@@ -185,11 +185,12 @@ TEST(Unsummed, WhereAllLightArrivesIsLitAsWhereNothingCasts) {
 TEST(Unsummed, HasTheSameBitsEverywhere) {
   Random random(92);
   for (int trial = 0; trial < 30; ++trial) {
-    const Scenery s = random_scenery(random, 0.6);
+    const UnsummedScenery s = random_unsummed_scenery(random, 0.6);
     const auto fragments = random_fragments(random);
-    const Unsummed narrow = shade(s, fragments, simd::best_instruction_set("sse2"));
+    const Unsummed narrow = unsummed_light_of(s, fragments, simd::best_instruction_set("sse2"));
     for (const simd::InstructionSet set : simd::all_sets())
-      EXPECT_EQ(shade(s, fragments, set).channels, narrow.channels) << simd::name_of(set) << ", trial " << trial;
+      EXPECT_EQ(unsummed_light_of(s, fragments, set).channels, narrow.channels)
+          << simd::name_of(set) << ", trial " << trial;
   }
 }
 
@@ -198,7 +199,7 @@ TEST(Unsummed, TheEndOfTheSumIsThePlainTwins) {
   Random random(93);
   std::size_t dark = 0, limited = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    Scenery s = random_scenery(random, 0);
+    UnsummedScenery s = random_unsummed_scenery(random, 0);
     const auto count = static_cast<std::uint32_t>(random.whole(1, 70));
     Unsummed in(count, s.casting);
     for (auto& channel : in.channels)
@@ -213,7 +214,7 @@ TEST(Unsummed, TheEndOfTheSumIsThePlainTwins) {
       rows.push_back(row.data());
     }
     for (const simd::InstructionSet set : simd::all_sets()) {
-      const Light light = light_of(
+      const SummedLight light = light_of(
           count, [&](float* const* to) { shading_kernels(set).sum_up(s.shading(), in.light, rows.data(), count, to); });
       for (std::uint32_t k = 0; k < count; ++k) {
         float plain[3];
@@ -246,7 +247,7 @@ TEST(Unsummed, PlanesThatTurnAwayDimByTheFormula) {
   Random random(94);
   int dim = 0, dark = 0, full = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    Scenery s = random_scenery(random, 0.7);
+    UnsummedScenery s = random_unsummed_scenery(random, 0.7);
     s.fog = {};
     s.lights.resize(1);
     s.lights[0].kind = wire::LightKind::directional;
@@ -256,7 +257,7 @@ TEST(Unsummed, PlanesThatTurnAwayDimByTheFormula) {
     s.casting = 1;
     s.space = wire::ColorSpace::linear;
     const auto fragments = random_fragments(random);
-    const Unsummed unsummed = shade(s, fragments, simd::best_instruction_set(""));
+    const Unsummed unsummed = unsummed_light_of(s, fragments, simd::best_instruction_set(""));
     for (std::size_t k = 0; k < fragments.size(); ++k) {
       const Fragment& f = fragments[k];
       const geometry::Triangle& t = s.triangles[f.triangle];

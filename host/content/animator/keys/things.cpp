@@ -106,16 +106,16 @@ Thing thing_of(std::string name, document::Json& json, std::vector<KeyedPart> pa
   return thing;
 }
 
-Thing camera_of(document::Json& film, const Film& meaning) {
+Thing thing_of_camera(document::Json& film, const Film& meaning) {
   return thing_of("camera", film.at("camera"), camera_parts(meaning));
 }
 
 // `number` counts from 1.
-Thing light_of(document::Json& json, const Film& film, std::size_t number) {
+Thing thing_of_light(document::Json& json, const Film& film, std::size_t number) {
   return thing_of(std::string(kLight) + std::to_string(number), json, light_parts(film.lights[number - 1]));
 }
 
-Thing material_of(document::Json& json, const MaterialMotion& material) {
+Thing thing_of_material(document::Json& json, const MaterialMotion& material) {
   std::vector<KeyedPart> parts{plain("color", material.color)};
   for (std::size_t i = 0; i < modeler::kMaterialNumbers.size(); ++i)
     if (uses(material.shading.reflection, modeler::kMaterialNumbers[i]))
@@ -123,7 +123,7 @@ Thing material_of(document::Json& json, const MaterialMotion& material) {
   return {std::string(kMaterial) + material.name, &json, false, std::move(parts)};
 }
 
-Thing actor_of(document::Json& json, const Film& film, const Actor& actor) {
+Thing thing_of_actor(document::Json& json, const Film& film, const Actor& actor) {
   const modeler::Model& model = film.models[actor.model];
   Thing thing{"actor '" + actor.name + "'", &json, true, {plain("place", actor.motion.place)}};
   thing.parts.push_back(turning("turn", free_joint(), actor.motion.turn, false));
@@ -145,14 +145,14 @@ Chosen whole(Thing thing) {
 }
 
 std::vector<Chosen> everything(document::Json& film, const Film& meaning) {
-  std::vector<Chosen> all = {whole(camera_of(film, meaning))};
+  std::vector<Chosen> all = {whole(thing_of_camera(film, meaning))};
   if (const auto lights = film.find("lights"); lights != film.end())
-    for (std::size_t i = 0; i < lights->size(); ++i) all.push_back(whole(light_of((*lights)[i], meaning, i + 1)));
+    for (std::size_t i = 0; i < lights->size(); ++i) all.push_back(whole(thing_of_light((*lights)[i], meaning, i + 1)));
   for (const MaterialMotion& material : meaning.materials)
-    all.push_back(whole(material_of(film["materials"][material.name], material)));
+    all.push_back(whole(thing_of_material(film["materials"][material.name], material)));
   for (std::size_t i = 0; i < meaning.actors.size(); ++i) {
     const Actor& actor = meaning.actors[i];
-    if (actor.matrices.empty()) all.push_back(whole(actor_of(film["actors"][i], meaning, actor)));
+    if (actor.matrices.empty()) all.push_back(whole(thing_of_actor(film["actors"][i], meaning, actor)));
   }
   return all;
 }
@@ -174,14 +174,14 @@ Thing light_named(document::Json& film, const Film& meaning, const std::string& 
     throw Failure("is no light of the film", "'" + name + "'",
                   lights->empty() ? "it has none: mars film FILM light add"
                                   : "its lights are light/1 to light/" + std::to_string(lights->size()));
-  return light_of((*lights)[*number - 1], meaning, *number);
+  return thing_of_light((*lights)[*number - 1], meaning, *number);
 }
 
 Thing material_named(document::Json& film, const Film& meaning, const std::string& name) {
   const std::string wanted = name.substr(kMaterial.size());
   std::vector<std::string_view> names;
   for (const MaterialMotion& material : meaning.materials) {
-    if (material.name == wanted) return material_of(film["materials"][wanted], material);
+    if (material.name == wanted) return thing_of_material(film["materials"][wanted], material);
     names.push_back(material.name);
   }
   throw Failure("is no material of the film", "'" + name + "'",
@@ -197,12 +197,12 @@ Thing thing_named(document::Json& film, const Film& meaning, const std::string& 
     if (!actor.matrices.empty())
       throw Failure("is moved by matrices, which have no keys", "actor '" + name + "'",
                     "change its matrices in the tool they came from");
-    return actor_of(film.at("actors")[i], meaning, actor);
+    return thing_of_actor(film.at("actors")[i], meaning, actor);
   }
   if (name.starts_with(kLight)) return light_named(film, meaning, name);
   if (name.starts_with(kMaterial)) return material_named(film, meaning, name);
   if (name != "camera") refuse_name(name, meaning);
-  return camera_of(film, meaning);
+  return thing_of_camera(film, meaning);
 }
 
 bool can_change(const KeyedPart& part) { return !part.joint || part.joint->freedoms() > 0; }

@@ -42,15 +42,16 @@ std::string values_of(const Json& thing) {
   return text;
 }
 
-struct Row {
+struct SummaryRow {
   std::string name, what;
 };
 
-std::string table_of(const std::vector<Row>& rows) {
+std::string summary_table(const std::vector<SummaryRow>& rows) {
   std::size_t widest = 0;
-  for (const Row& row : rows) widest = std::max(widest, row.name.size());
+  for (const SummaryRow& row : rows) widest = std::max(widest, row.name.size());
   std::string text;
-  for (const Row& row : rows) text += row.name + std::string(widest - row.name.size() + 2, ' ') + row.what + "\n";
+  for (const SummaryRow& row : rows)
+    text += row.name + std::string(widest - row.name.size() + 2, ' ') + row.what + "\n";
   return text;
 }
 
@@ -62,7 +63,7 @@ std::string settings_of(const Film& film) {
 }  // namespace
 
 std::string film_summary(Json& film, const Film& meaning) {
-  std::vector<Row> rows = {{"film", settings_of(meaning)}};
+  std::vector<SummaryRow> rows = {{"film", settings_of(meaning)}};
   for (const Chosen& chosen : choose(film, meaning, {true, "", {}}))
     if (!chosen.thing.actor)
       rows.push_back({chosen.thing.name, keys_of(*chosen.thing.json) + values_of(*chosen.thing.json)});
@@ -72,7 +73,7 @@ std::string film_summary(Json& film, const Film& meaning) {
     rows.push_back({actor.at("name"), "model " + actor.at("model").get<std::string>() + ", " +
                                           (actor.contains("matrices") ? "moved by matrices" : keys_of(actor)) +
                                           values_of(actor)});
-  return table_of(rows);
+  return summary_table(rows);
 }
 
 }  // namespace mars::animator

@@ -10,7 +10,7 @@
 namespace mars::animator {
 namespace {
 
-struct Row {
+struct KeyRow {
   std::uint32_t frame;
   std::string part, value, ease;
 };
@@ -72,8 +72,8 @@ std::string shown_way(const TrackKey& part, const document::Json& key) {
   return text.empty() && !slopes.empty() ? slopes.substr(2) : text + slopes;
 }
 
-std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
-  std::vector<Row> rows;
+std::vector<KeyRow> rows_of(const Chosen& chosen, FrameRange range) {
+  std::vector<KeyRow> rows;
   const auto keys = chosen.thing.json->find("keys");
   if (keys == chosen.thing.json->end()) return rows;
   Tracks tracks = tracks_of(*chosen.thing.json);
@@ -92,20 +92,20 @@ std::vector<Row> rows_of(const Chosen& chosen, FrameRange range) {
 }
 
 // Of all parts at the frame: it is then shown once.
-bool same_ease(const std::vector<Row>& rows, std::uint32_t frame) {
-  const auto first = std::ranges::lower_bound(rows, frame, {}, &Row::frame);
-  const auto end = std::ranges::upper_bound(rows, frame, {}, &Row::frame);
-  return std::all_of(first, end, [&](const Row& row) { return row.ease == first->ease; });
+bool same_ease(const std::vector<KeyRow>& rows, std::uint32_t frame) {
+  const auto first = std::ranges::lower_bound(rows, frame, {}, &KeyRow::frame);
+  const auto end = std::ranges::upper_bound(rows, frame, {}, &KeyRow::frame);
+  return std::all_of(first, end, [&](const KeyRow& row) { return row.ease == first->ease; });
 }
 
-std::string table_of(const std::vector<Row>& rows) {
+std::string table_of_keys(const std::vector<KeyRow>& rows) {
   std::size_t parts = 4, values = 5;
-  for (const Row& row : rows) {
+  for (const KeyRow& row : rows) {
     parts = std::max(parts, row.part.size());
     values = std::max(values, row.value.size());
   }
   std::string text;
-  const auto add = [&](const std::string& frame, const Row& row) {
+  const auto add = [&](const std::string& frame, const KeyRow& row) {
     std::string line = std::string(7 - std::min<std::size_t>(7, frame.size()), ' ') + frame + "  " + row.part +
                        std::string(parts - row.part.size() + 2, ' ') + row.value;
     if (!row.ease.empty()) line += std::string(values - row.value.size() + 2, ' ') + row.ease;
@@ -114,7 +114,7 @@ std::string table_of(const std::vector<Row>& rows) {
   add("frame", {0, "part", "value", "ease"});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const bool again = i > 0 && rows[i - 1].frame == rows[i].frame;
-    Row row = rows[i];
+    KeyRow row = rows[i];
     if (again && same_ease(rows, row.frame)) row.ease.clear();
     add(again ? "" : std::to_string(row.frame), row);
   }
@@ -127,11 +127,11 @@ std::string keys_table(document::Json& film, const Film& meaning, const Choice& 
   std::string text;
   std::vector<std::string> without;
   for (const Chosen& chosen : choose(film, meaning, choice)) {
-    const std::vector<Row> rows = rows_of(chosen, range);
+    const std::vector<KeyRow> rows = rows_of(chosen, range);
     if (rows.empty())
       without.push_back(chosen.thing.name);
     else
-      text += chosen.thing.name + "\n" + table_of(rows);
+      text += chosen.thing.name + "\n" + table_of_keys(rows);
   }
   if (!without.empty()) text += "no keys: " + document::joined(without) + "\n";
   return text;

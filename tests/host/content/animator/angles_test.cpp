@@ -22,7 +22,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b, double most = 1e-9) {
   EXPECT_LE(glm::length(a - b), most) << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " " << b.z;
 }
 
-double distance(const glm::dmat3& a, const glm::dmat3& b) {
+double turn_distance(const glm::dmat3& a, const glm::dmat3& b) {
   double worst = 0;
   for (int i = 0; i < 3; ++i) worst = std::max(worst, glm::length(a[i] - b[i]));
   return worst;
@@ -39,7 +39,8 @@ TEST_P(RoundTrip, EveryPoseComesBack) {
     const glm::dmat3 turn = modeler::orientation(joint, pose);
     expect_near(pose_of(joint, turn, pose), pose, 1e-6);
     const glm::dvec3 far = pose_of(joint, turn, {angle(dice), angle(dice), angle(dice)});
-    EXPECT_LT(distance(modeler::orientation(joint, far), turn), 1e-7) << "whatever it is near to, it is a way there";
+    EXPECT_LT(turn_distance(modeler::orientation(joint, far), turn), 1e-7)
+        << "whatever it is near to, it is a way there";
     EXPECT_EQ(largest_excess(joint, far), 0) << far.x << " " << far.y << " " << far.z;
   }
 }
@@ -83,7 +84,7 @@ TEST(PoseOf, SkewedAxesThatDoNotReachComeNear) {
       modeler::orientation(joint_of({}, {}, {}), {0, 90, 0});  // takes z to x, nearer than y's turns do
   const glm::dvec3 pose = pose_of(joint, turn, {0, 0, 0});
   EXPECT_NEAR(pose.y, 90, 1e-9);
-  EXPECT_LT(distance(modeler::orientation(joint, pose), turn), 0.6);
+  EXPECT_LT(turn_distance(modeler::orientation(joint, pose), turn), 0.6);
 }
 
 TEST(Excess, IsDegreesOutsideTheLimits) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double difference(const glm::dmat3& a, const glm::dmat3& b) {
+double turn_difference(const glm::dmat3& a, const glm::dmat3& b) {
   double most = 0;
   for (int column = 0; column < 3; ++column)
     for (int row = 0; row < 3; ++row) most = std::max(most, std::abs(a[column][row] - b[column][row]));
@@ -34,7 +34,7 @@ std::vector<glm::dvec3> axes() {
 TEST(Rotation, IsTheQuaternions) {
   for (const glm::dvec3& axis : axes())
     for (const double angle : {-3.0, -1e-9, 0.0, 0.1, 1.0, 3.1, 7.0})
-      EXPECT_LT(difference(modeler::rotation(axis, angle), glm::mat3_cast(glm::angleAxis(angle, axis))), 1e-14);
+      EXPECT_LT(turn_difference(modeler::rotation(axis, angle), glm::mat3_cast(glm::angleAxis(angle, axis))), 1e-14);
 }
 
 TEST(Rotation, QuarterTurnsAreExact) {
@@ -55,8 +55,8 @@ TEST(TurnBetween, FollowsSlerp) {
     const glm::dmat3 start = glm::mat3_cast(first);
     const Turn turn = turn_between(start, glm::mat3_cast(last));
     for (const double part : {0.0, 0.25, 0.5, 0.9, 1.0})
-      EXPECT_LT(difference(modeler::rotation(turn.axis, part * turn.angle) * start,
-                           glm::mat3_cast(glm::slerp(first, last, part))),
+      EXPECT_LT(turn_difference(modeler::rotation(turn.axis, part * turn.angle) * start,
+                                glm::mat3_cast(glm::slerp(first, last, part))),
                 1e-11 / std::max(1e-6, kPi - turn.angle));
   }
 }
@@ -86,9 +86,9 @@ TEST(TurnBetween, NearHalfATurnKeepsAxisAndAngle) {
       const Turn turn = turn_between(start, last);
       EXPECT_NEAR(turn.angle, kPi - less, 1e-13);
       EXPECT_LT(glm::length(turn.axis - axis), 1e-6) << less;
-      EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle) * start, last), 1e-13);
-      EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle / 2) * start,
-                           modeler::rotation(axis, (kPi - less) / 2) * start),
+      EXPECT_LT(turn_difference(modeler::rotation(turn.axis, turn.angle) * start, last), 1e-13);
+      EXPECT_LT(turn_difference(modeler::rotation(turn.axis, turn.angle / 2) * start,
+                                modeler::rotation(axis, (kPi - less) / 2) * start),
                 1e-6);
     }
 }
@@ -101,9 +101,9 @@ TEST(TurnBetween, HalfATurnGoesAboutTheAxisWithItsLargestComponentPositive) {
     const glm::dvec3 size = glm::abs(turn.axis);
     const double largest = std::max({size.x, size.y, size.z});
     EXPECT_GT(std::max({turn.axis.x, turn.axis.y, turn.axis.z}), largest - 1e-9) << "of " << axis.x << axis.y << axis.z;
-    EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle), last), 1e-12);
+    EXPECT_LT(turn_difference(modeler::rotation(turn.axis, turn.angle), last), 1e-12);
     const glm::dquat half = glm::angleAxis(kPi / 2, glm::dot(turn.axis, axis) > 0 ? axis : -axis);
-    EXPECT_LT(difference(modeler::rotation(turn.axis, turn.angle / 2), glm::mat3_cast(half)), 1e-12);
+    EXPECT_LT(turn_difference(modeler::rotation(turn.axis, turn.angle / 2), glm::mat3_cast(half)), 1e-12);
   }
 }
 

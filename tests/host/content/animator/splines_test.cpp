@@ -70,16 +70,16 @@ TEST(Spline, ALightsDirectionGoesByItsNumbersAndStaysAUnit) {
   EXPECT_NEAR(glm::length(direction_at(across, 5)), 1, 1e-15);
 }
 
-constexpr const char* kArm = R"({"frames": 61, "camera": {"eye": [0, -9, 2]}, "models": {"arm": {"joints": [
+constexpr const char* kSplineArm = R"({"frames": 61, "camera": {"eye": [0, -9, 2]}, "models": {"arm": {"joints": [
   {"name": "shoulder", "limits": {"x": [-90, 90], "y": [-90, 90], "z": [-90, 90]}},
   {"name": "elbow", "parent": "shoulder", "place": [1, 0, 0], "limits": {"y": [0, 150]}}]}},
   "actors": [{"name": "it", "model": "arm", "keys": )";
 
-struct Arm {
+struct SplineArm {
   document::Json json;
   Film film;
 
-  explicit Arm(const std::string& keys) : json(document::Json::parse(kArm + keys + "}]}")) { read(); }
+  explicit SplineArm(const std::string& keys) : json(document::Json::parse(kSplineArm + keys + "}]}")) { read(); }
 
   void read() {
     const document::Document document(document::laid_out(json), "f.json");
@@ -98,10 +98,11 @@ struct Arm {
   }
 };
 
-const Choice kIt{false, "it", {}};
+const Choice kSplined{false, "it", {}};
 
 TEST(Spline, AnActorTurnsWholeTurns) {
-  const Arm arm(R"([{"frame": 0, "turn": {"value": [0, 0, 0], "ease": "spline"}}, {"frame": 8, "turn": [0, 0, 720]}])");
+  const SplineArm arm(
+      R"([{"frame": 0, "turn": {"value": [0, 0, 0], "ease": "spline"}}, {"frame": 8, "turn": [0, 0, 720]}])");
   for (std::uint32_t frame = 0; frame <= 8; ++frame) {
     EXPECT_NEAR(arm.at(frame).turn.z, frame * 90.0, 1e-9);
     EXPECT_NEAR(arm.at(frame).root.turn[0][0], std::cos(frame * M_PI / 2), 1e-12) << frame;
@@ -109,7 +110,8 @@ TEST(Spline, AnActorTurnsWholeTurns) {
 }
 
 TEST(Spline, JointsStopAtTheirLimits) {
-  const Arm arm(R"([{"frame": 0, "pose": {"shoulder": {"value": [0, 80, 0], "out": [0, 9, 2]}, "elbow": [0, 140, 0]},
+  const SplineArm arm(
+      R"([{"frame": 0, "pose": {"shoulder": {"value": [0, 80, 0], "out": [0, 9, 2]}, "elbow": [0, 140, 0]},
     "ease": "spline"}, {"frame": 20, "pose": {"shoulder": [0, 80, 0], "elbow": {"value": [0, 140, 0], "in": [0, -8, 0]}}}])");
   double highest = 0, bent = 0;
   for (std::uint32_t frame = 0; frame <= 20; ++frame) {
@@ -123,7 +125,7 @@ TEST(Spline, JointsStopAtTheirLimits) {
 }
 
 TEST(OwnEase, LegsAreEasedWhileThePlaceRunsEvenly) {
-  Arm arm(R"([{"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 0, 0], "shoulder": [0, 0, 0]}},
+  SplineArm arm(R"([{"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 0, 0], "shoulder": [0, 0, 0]}},
               {"frame": 40, "place": [4, 0, 0], "pose": {"elbow": [0, 90, 0], "shoulder": [0, 0, 40]}}])");
   arm([](document::Json& j, const Film& f) {
     return ease_keys(j, f, {false, "it", {"elbow", "shoulder"}}, {0, 0}, kBoth);
@@ -140,7 +142,8 @@ TEST(OwnEase, LegsAreEasedWhileThePlaceRunsEvenly) {
 }
 
 TEST(OwnEase, OfALastKeyStaysUntilOthersFollow) {
-  Arm arm(R"([{"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 5, 0]}}, {"frame": 9, "place": [1, 0, 0]}])");
+  SplineArm arm(
+      R"([{"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 5, 0]}}, {"frame": 9, "place": [1, 0, 0]}])");
   arm([](document::Json& j, const Film& f) { return ease_keys(j, f, {false, "it", {"elbow"}}, {0, 0}, kIn); });
   EXPECT_EQ(arm.keys()[0]["pose"]["elbow"]["ease"], "in");
   const document::Json before = arm.json;
@@ -163,11 +166,11 @@ double farthest(const ActorState& one, const ActorState& other) {
 }
 
 TEST(Keys, MadeOnASplineKeepTheCurve) {
-  const Arm before(kCurved);
-  Arm arm(kCurved);
+  const SplineArm before(kCurved);
+  SplineArm arm(kCurved);
   for (const std::uint32_t frame : {5u, 17u, 29u, 50u, 53u})
     EXPECT_TRUE(arm([&](document::Json& j, const Film& f) {
-                  return make_keys(j, f, kIt, frame, {}, Beyond::refused);
+                  return make_keys(j, f, kSplined, frame, {}, Beyond::refused);
                 }).empty());
   for (std::uint32_t frame = 0; frame <= 60; ++frame)
     EXPECT_LT(farthest(arm.at(frame), before.at(frame)), 1e-6) << frame;
@@ -175,10 +178,10 @@ TEST(Keys, MadeOnASplineKeepTheCurve) {
 }
 
 TEST(Hold, OnASplineStandsStillAndGoesOnAsBefore) {
-  const Arm before(kCurved);
+  const SplineArm before(kCurved);
   for (const std::uint32_t at : {12u, 20u, 30u}) {
-    Arm arm(kCurved);
-    arm([&](document::Json& j, const Film& f) { return hold(j, f, kIt, at, 7); });
+    SplineArm arm(kCurved);
+    arm([&](document::Json& j, const Film& f) { return hold(j, f, kSplined, at, 7); });
     for (std::uint32_t frame = 0; frame <= 67; ++frame) {
       const std::uint32_t was = frame <= at ? frame : frame <= at + 7 ? at : frame - 7;
       EXPECT_LT(farthest(arm.at(frame), before.at(was)), 1e-6) << at << ": " << frame;
@@ -187,16 +190,16 @@ TEST(Hold, OnASplineStandsStillAndGoesOnAsBefore) {
 }
 
 TEST(Stretch, OfASplineIsTheSameCurveSlower) {
-  const Arm before(kCurved);
-  Arm arm(kCurved);
-  arm([&](document::Json& j, const Film& f) { return stretch(j, f, kIt, {0, 60}, 3); });
+  const SplineArm before(kCurved);
+  SplineArm arm(kCurved);
+  arm([&](document::Json& j, const Film& f) { return stretch(j, f, kSplined, {0, 60}, 3); });
   EXPECT_EQ(arm.keys()[1]["place"]["out"][1].get<double>(), 0.0833333333);
   for (std::uint32_t frame = 0; frame <= 60; ++frame)
     EXPECT_LT(farthest(arm.at(3 * frame), before.at(frame)), 1e-6) << frame;
 }
 
 TEST(Tangent, SetsSlopesOfAxesAndMakesSplines) {
-  Arm arm(
+  SplineArm arm(
       R"([{"frame": 0, "place": [0, 0, 0]}, {"frame": 10, "place": [1, 0, 0]}, {"frame": 20, "place": [4, 0, 0]}])");
   const auto set = [&](const std::string& part, const SlopeChange& change) {
     arm([&](document::Json& j, const Film& f) { return set_slopes(j, f, "it", part, {10, 10}, change); });
@@ -218,19 +221,19 @@ TEST(Tangent, SetsSlopesOfAxesAndMakesSplines) {
 }
 
 TEST(OwnEase, WhatCarriesAnActorHasNone) {
-  Arm arm(R"([{"frame": 0, "place": [0, 0, 0], "ease": "spline"}, {"frame": 20, "place": [1, 0, 0]}])");
+  SplineArm arm(R"([{"frame": 0, "place": [0, 0, 0], "ease": "spline"}, {"frame": 20, "place": [1, 0, 0]}])");
   arm.json["actors"].push_back({{"name", "rod"}, {"model", "arm"}});
   arm.actor()["keys"][0]["attach"] = {{"actor", "rod"}};
   arm.actor()["keys"][1]["attach"] = nullptr;
   arm.read();
-  arm([](document::Json& j, const Film& f) { return make_keys(j, f, kIt, 8, kBoth, Beyond::refused); });
-  arm([](document::Json& j, const Film& f) { return hold(j, f, kIt, 4, 3); });
+  arm([](document::Json& j, const Film& f) { return make_keys(j, f, kSplined, 8, kBoth, Beyond::refused); });
+  arm([](document::Json& j, const Film& f) { return hold(j, f, kSplined, 4, 3); });
   for (const document::Json& key : arm.keys())
     EXPECT_FALSE(key.value("attach", document::Json()).contains("value")) << key;
 }
 
 TEST(PutKeys, TakeSlopesAndLeaveTheEaseOfOthers) {
-  Arm arm(
+  SplineArm arm(
       R"([{"frame": 0, "pose": {"elbow": [0, 5, 0]}, "ease": "both"}, {"frame": 9, "pose": {"elbow": [0, 50, 0]}}])");
   ActorKey first{0, glm::dvec3(0, 0, 1), {}, {}, kSpline}, last{9, glm::dvec3(3, 0, 1), {}, {}, {}};
   first.out["place"] = {1, 0, 2};
@@ -242,7 +245,7 @@ TEST(PutKeys, TakeSlopesAndLeaveTheEaseOfOthers) {
 }
 
 TEST(KeysTable, ShowsEaseAndSlopesOfEachPart) {
-  Arm arm(R"([{"frame": 0, "place": {"value": [1, 0, 0], "out": [0, 2, 0]}, "pose": {"elbow": {"value": [0, 5, 0],
+  SplineArm arm(R"([{"frame": 0, "place": {"value": [1, 0, 0], "out": [0, 2, 0]}, "pose": {"elbow": {"value": [0, 5, 0],
     "ease": "in"}}, "ease": "spline"}, {"frame": 9, "place": [0, 0, 0], "pose": {"elbow": [0, 6, 0]}}])");
   EXPECT_EQ(keys_table(arm.json, arm.film, {false, "it", {}}, {0, 9}),
             "actor 'it'\n"
@@ -254,14 +257,14 @@ TEST(KeysTable, ShowsEaseAndSlopesOfEachPart) {
 }
 
 TEST(Version, IsWrittenWhereItIsNeeded) {
-  Arm arm(R"([{"frame": 0, "pose": {"elbow": [0, 5, 0]}, "ease": "both"}])");
+  SplineArm arm(R"([{"frame": 0, "pose": {"elbow": [0, 5, 0]}, "ease": "both"}])");
   document::Json old = arm.json;
   write_version(old);
   EXPECT_EQ(old.dump(), arm.json.dump());
   for (const char* keys : {R"([{"frame": 0, "place": [0, 0, 0], "ease": "spline"}])",
                            R"([{"frame": 0, "pose": {"elbow": {"value": [0, 5, 0]}}}])",
                            R"([{"frame": 0, "turn": {"value": [0, 5, 0], "ease": "in"}}])"}) {
-    Arm newer(keys);
+    SplineArm newer(keys);
     newer.json["version"] = 1;
     EXPECT_TRUE(document::holds(document::failure_of([&] { newer.read(); }), "came with version 2")) << keys;
     write_version(newer.json);
@@ -272,7 +275,7 @@ TEST(Version, IsWrittenWhereItIsNeeded) {
 }
 
 TEST(Version, OfTheFutureIsRefused) {
-  Arm arm("[]");
+  SplineArm arm("[]");
   arm.json["version"] = 3;
   arm.json["clouds"] = true;
   EXPECT_TRUE(document::holds(document::failure_of([&] { arm.read(); }),
@@ -291,7 +294,7 @@ TEST(Tracks, FilmsThatNobodyChangedAreWrittenAsTheyStand) {
         for (document::Json& thing : film[group]) again(thing);
     EXPECT_TRUE(film.dump() == before) << entry.path();
   }
-  Arm arm(kCurved);
+  SplineArm arm(kCurved);
   const std::string before = arm.json.dump();
   put_tracks(arm.actor(), tracks_of(arm.actor()));
   EXPECT_EQ(arm.json.dump(), before);
@@ -306,7 +309,7 @@ class WrongPart : public testing::TestWithParam<Wrong> {};
 
 TEST_P(WrongPart, IsOneClearError) {
   const std::string keys = R"([{"frame": 0, "place": )" + std::string(GetParam().place) + "}]";
-  const std::string failure = document::failure_of([&] { Arm arm(keys); });
+  const std::string failure = document::failure_of([&] { SplineArm arm(keys); });
   EXPECT_TRUE(document::holds(failure, "keys[0].place")) << failure;
   EXPECT_TRUE(document::holds(failure, GetParam().reported)) << failure;
 }

@@ -9,6 +9,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/document/file.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::document {
 namespace {
@@ -125,12 +126,11 @@ TEST(Fields, TellWhatIsWrongAndWhatWouldBeRight) {
 }
 
 TEST(File, RefusesWhatIsNoFile) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path();
-  EXPECT_TRUE(holds(failure_of([&] { read_file(folder); }), "is a directory"));
+  const test::TemporaryFolder folder;
+  EXPECT_TRUE(holds(failure_of([&] { read_file(folder.path()); }), "is a directory"));
   EXPECT_TRUE(holds(failure_of([&] { read_file(folder / "no-such-file.json"); }), "no such file"));
   EXPECT_TRUE(holds(failure_of([&] { read_file("/dev/zero"); }), "not a regular file"));
-  const std::filesystem::path odd = folder / "mars_document_test.odd";
-  std::filesystem::remove(odd);
+  const std::filesystem::path odd = folder / "odd";
   EXPECT_FALSE(read_file_if_there(odd, 4));
   ASSERT_EQ(mkfifo(odd.c_str(), 0600), 0);
   EXPECT_TRUE(holds(failure_of([&] { read_file_if_there(odd, 4); }), "odd: is not a regular file"));
@@ -138,12 +138,10 @@ TEST(File, RefusesWhatIsNoFile) {
   std::filesystem::remove(odd);
   std::filesystem::create_symlink(odd.filename(), odd);
   EXPECT_TRUE(holds(failure_of([&] { read_file(odd); }), "levels of symbolic links (its links lead in a circle"));
-  std::filesystem::remove(odd);
-  const std::filesystem::path file = folder / "mars_document_test.json";
+  const std::filesystem::path file = folder / "file.json";
   std::ofstream(file) << "12345";
   EXPECT_TRUE(holds(failure_of([&] { read_file(file, 4); }), "5 bytes, too many"));
   EXPECT_EQ(read_file(file, 5), "12345");
-  std::filesystem::remove(file);
 }
 
 }  // namespace

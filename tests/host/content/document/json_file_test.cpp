@@ -9,7 +9,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/fields.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::document {
 namespace {
@@ -41,7 +41,7 @@ TEST(JsonFile, NoLineIsLongerThanItMustBe) {
 }
 
 TEST(JsonFile, WhatIsRefusedLeavesTheFileAsItWas) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto path = folder.path() / "a.json";
   const auto accept = [](const Element&) {};
   write_json(path, {{"a", 1}}, accept);
@@ -52,13 +52,13 @@ TEST(JsonFile, WhatIsRefusedLeavesTheFileAsItWas) {
 }
 
 TEST(JsonFile, OnlyUtf8IsWritten) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto write = [&] { write_json(folder.path() / "a.json", {{"joint\xff", 1}}, [](const Element&) {}); };
   EXPECT_TRUE(holds(failure_of(write), "a name that was given is not UTF-8"));
 }
 
 TEST(JsonFile, ABrokenFileIsToldWithItsLine) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto path = folder.path() / "a.json";
   std::ofstream(path) << "{\n  \"a\": 1,\n  \"a\": 2\n}\n";
   try {

@@ -8,13 +8,13 @@
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::document {
 namespace {
 
 TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* name : {"before", "read", "start", "exists", "inner", "elsewhere", "pieces"})
     write_whole_file(folder / name, name);
   read_file(folder / "before");
@@ -50,7 +50,7 @@ TEST(RecordedReads, HoldWhatIsReadWhileTheyLiveAlsoInVain) {
 }
 
 TEST(RecordedReads, HoldAFileAsItStoodFirst) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "file", "first");
   const FileStamp first = stamp_of(folder / "file");
   RecordedReads reads;

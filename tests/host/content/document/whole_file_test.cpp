@@ -9,7 +9,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/filled_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::document {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 std::string text_of(const std::filesystem::path& path) { return read_file(path); }
 
 TEST(WholeFile, HoldsWhatWasWrittenLast) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const std::size_t size : {0u, 1u, 65536u, 65537u, 1000000u}) {
     const std::string text(size, 'x');
     write_whole_file(folder / "file", text);
@@ -27,7 +27,7 @@ TEST(WholeFile, HoldsWhatWasWrittenLast) {
 }
 
 TEST(WholeFile, TellsWhatCannotBeWritten) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "file", "x");
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "no/file", "x"); }), "no/file: cannot write: No"));
   EXPECT_TRUE(holds(failure_of([&] { check_can_write(folder / "no/file"); }), "no/file: cannot write: No such"));
@@ -39,7 +39,7 @@ TEST(WholeFile, TellsWhatCannotBeWritten) {
 }
 
 TEST(WholeFile, LinksAndPermissionsStay) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "file", "old");
   std::filesystem::permissions(folder / "file",
                                std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
@@ -53,7 +53,7 @@ TEST(WholeFile, LinksAndPermissionsStay) {
 }
 
 TEST(WholeFile, LinksThatLeadNowhereAreRefused) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::filesystem::create_symlink("gone", folder / "link");
   std::filesystem::create_symlink("circle", folder / "circle");
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(folder / "link", "new"); }),
@@ -64,7 +64,7 @@ TEST(WholeFile, LinksThatLeadNowhereAreRefused) {
 }
 
 TEST(WholeFile, NothingIsWrittenWhereOthersLead) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "file", "old");
   std::filesystem::create_symlink("file", folder / "link");
   const auto refusal = [&] { return failure_of([&] { check_can_write(folder / "link"); }); };
@@ -81,7 +81,7 @@ TEST(WholeFile, NothingIsWrittenWhereOthersLead) {
 
 // Whoever can foresee a temporary name can put a link there.
 TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "precious", "old");
   std::filesystem::create_symlink("precious", folder / "file.part");
   write_whole_file(folder / "file", "new");
@@ -98,7 +98,7 @@ TEST(WholeFile, NothingIsWrittenThroughAPlantedPart) {
 }
 
 TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "file", [&](const Write& write) {
     write("outer");
     write_whole_file(folder / "file", std::string(1 << 16, 'x'));
@@ -108,7 +108,7 @@ TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
 }
 
 TEST(FilledFile, PartsThatNoProcessFillsAreRemoved) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path left = folder / ".film.mp4.0123456789abcdef.part";
   for (const char* file : {".film.mp4.0123456789abcdef.part", ".film.mp4.mine.part", ".a.mp4.0123456789abcdef.part"})
     write_whole_file(folder / file, "x");
@@ -123,14 +123,14 @@ TEST(FilledFile, PartsThatNoProcessFillsAreRemoved) {
 }
 
 TEST(WholeFile, NamesMayBeAsLongAsTheSystemLetsThemBe) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string longest(255, 'n');
   write_whole_file(folder / longest, "text");
   EXPECT_EQ(text_of(folder / longest), "text");
 }
 
 TEST(WholeFile, InAFolderOfOursALinkIsReplaced) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_whole_file(folder / "precious", "old");
   std::filesystem::create_symlink("precious", folder / "file");
   replace_file(folder / "file", folder / "file.part", std::as_bytes(std::span("new", 3)));
@@ -141,7 +141,7 @@ TEST(WholeFile, InAFolderOfOursALinkIsReplaced) {
 }
 
 TEST(WholeFile, APartThatSomebodyRemovesIsWrittenOnceMore) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   int tries = 0, removals = 1;
   const auto produce = [&](const Write& write) {
     ++tries;
@@ -156,7 +156,7 @@ TEST(WholeFile, APartThatSomebodyRemovesIsWrittenOnceMore) {
 }
 
 TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::filesystem::path pipe = folder / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_TRUE(holds(failure_of([&] { write_whole_file(pipe, "x"); }), "pipe: cannot write: is not a regular file"));
@@ -166,7 +166,7 @@ TEST(WholeFile, WhatIsNoFileIsNotReplaced) {
 }
 
 TEST(WholeFile, ANewFileThatCannotBeWrittenIsRemoved) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   rlimit before{};
   getrlimit(RLIMIT_FSIZE, &before);
   const rlimit two_bytes{2, before.rlim_max};
@@ -180,13 +180,13 @@ TEST(WholeFile, ANewFileThatCannotBeWrittenIsRemoved) {
 }
 
 TEST(WholeFile, ALimitOfFilesIsTold) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_TRUE(holds(failure_of([&] { fail_file("write", folder / "file", EFBIG); }), "raise ulimit -f"));
 }
 
 // A disk of 64 KiB, where the system lets us have one.
 TEST(WholeFile, AFullDiskLeavesTheOldFile) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   if (mount("none", folder.path().c_str(), "tmpfs", 0, "size=64k") != 0)
     GTEST_SKIP() << "only root may mount a small disk";
   write_whole_file(folder / "file", "old");

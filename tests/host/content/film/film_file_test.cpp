@@ -10,6 +10,7 @@
 #include "host/content/film/describe.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::film {
 namespace {
@@ -19,21 +20,19 @@ namespace fs = std::filesystem;
 class FilmFileTest : public testing::Test {
  protected:
   void SetUp() override {
-    fs::create_directories(folder_);
     film_ = compiled(arm_film(R"({"name": "x", "model": "arm", "keys": [
         {"frame": 0, "place": [0, 0, 0]}, {"frame": 5, "place": [1, 0, 0]}]})"));
     save_film(film_, path_);
     bytes_ = document::read_file(path_);
   }
-  void TearDown() override { fs::remove_all(folder_); }
 
   std::string failure(const std::string& bytes) const {
     std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
     return document::failure_of([&] { load_compiled_film(path_); });
   }
 
-  fs::path folder_ = fs::temp_directory_path() / "mars_film_file_test";
-  fs::path path_ = folder_ / "x.mars";
+  const test::TemporaryFolder folder_;
+  const fs::path path_ = folder_ / "x.mars";
   CompiledFilm film_;
   std::string bytes_;
 };
@@ -47,7 +46,7 @@ TEST_F(FilmFileTest, ComesBackBitForBit) {
   EXPECT_EQ(back.actors, 1u);
   EXPECT_EQ(back.joints, 2u);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back.block().data()) % 64, 0u);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1) << "nothing else is left";
+  EXPECT_EQ(folder_.entries(), 1u) << "nothing else is left";
 }
 
 TEST_F(FilmFileTest, SaysTheSameOfBothKinds) {
@@ -88,8 +87,8 @@ TEST_F(FilmFileTest, ForeignFilesAreTold) {
   std::ofstream(path_, std::ios::trunc) << "\x89PNG\r\n\x1a\n" << std::string(200, '\0');
   EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(path_); }), "binary, not JSON"));
   EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(folder_ / "none.mars"); }), "no such file"));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(folder_); }), "is a directory"));
-  EXPECT_TRUE(document::holds(document::failure_of([&] { save_film(film_, folder_ / "no" / "x.mars"); }), "x.mars"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { load_film(folder_.path()); }), "is a directory"));
+  EXPECT_TRUE(document::holds(document::failure_of([&] { save_film(film_, folder_ / "no/x.mars"); }), "x.mars"));
 }
 
 }  // namespace

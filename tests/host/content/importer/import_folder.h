@@ -8,14 +8,12 @@
 #include <string>
 
 #include "host/content/importer/import_file.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::importer {
 
 class ImportFolder : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
   std::filesystem::path write(const std::string& name, const std::string& content) const {
     std::ofstream(folder_ / name, std::ios::binary) << content;
     return folder_ / name;
@@ -30,9 +28,7 @@ class ImportFolder : public testing::Test {
     return options;
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      (std::string("mars_") + testing::UnitTest::GetInstance()->current_test_info()->test_suite_name());
+  const test::TemporaryFolder folder_;
 };
 
 }  // namespace mars::importer

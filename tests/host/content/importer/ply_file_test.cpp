@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::importer {
 namespace {
@@ -16,14 +17,14 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string kPlaces = "property float x\nproperty float y\nproperty float z\n";
-const std::string kCorners = "property list uchar int vertex_indices\n";
+const std::string kCornerList = "property list uchar int vertex_indices\n";
 
 std::string header(const std::string& format, const std::string& elements) {
   return "ply\nformat " + format + " 1.0\ncomment\nobj_info of a test\n" + elements + "end_header\n";
 }
 
 std::string triangle_header(const std::string& format) {
-  return header(format, "element vertex 3\n" + kPlaces + "element face 1\n" + kCorners);
+  return header(format, "element vertex 3\n" + kPlaces + "element face 1\n" + kCornerList);
 }
 
 std::string with_ends(std::string text, const std::string& end) {
@@ -49,9 +50,6 @@ std::string triangle_bytes(float first, bool little) {
 
 class PlyFileTest : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   PlyFile read(const std::string& content) const {
     std::ofstream(folder_ / "a.ply", std::ios::binary) << content;
     return read_ply_file(folder_ / "a.ply");
@@ -69,7 +67,7 @@ class PlyFileTest : public testing::Test {
     EXPECT_EQ(file.not_read, std::vector<std::string>{});
   }
 
-  fs::path folder_ = fs::temp_directory_path() / "mars_ply_file_test";
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(PlyFileTest, TextAndBytesOfEitherOrder) {
@@ -114,7 +112,7 @@ TEST_F(PlyFileTest, NormalsAreReadAndTheRestIsTold) {
       read(header("ascii", "comment TextureFile skin.png\nelement vertex 4\n" + kPlaces +
                                "property float nx\nproperty float ny\nproperty float nz\n"
                                "property uchar red\nelement face 1\nproperty float area\n" +
-                               kCorners + "element edge 1\nproperty int vertex1\nelement scan 0\nproperty int a\n") +
+                               kCornerList + "element edge 1\nproperty int vertex1\nelement scan 0\nproperty int a\n") +
            "0 0 0 0 0 1 9\n1 0 0 0 0 1 9\n0 1 0 0 0 1 9\n5 5 5 0 0 1 9\n0.5 3 0 1 2\n7\n");
   EXPECT_EQ(file.normals, std::vector<glm::dvec3>(4, {0, 0, 1}));
   EXPECT_EQ(file.not_read,

@@ -15,6 +15,7 @@
 #include "host/content/modeler/describe.h"
 #include "host/content/modeler/shape_library.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::keys {
 namespace {
@@ -80,9 +81,8 @@ constexpr const char* kFilm = R"({
     {"name": "tim", "model": "large", "attach": {"actor": "tom"}}]
 })";
 
-// All that a reader made of the film, as text; or its failure.
-std::string meaning_of(const Json& json) {
-  const std::filesystem::path folder = testing::TempDir();
+// All that a reader made of the film, as text; or its failure. The film's files are written into `folder`.
+std::string meaning_of(const Json& json, const std::filesystem::path& folder) {
   std::string meaning;
   const std::string failure = document::failure_of([&] {
     std::ofstream(folder / "arm.json") << json["models"]["arm"];
@@ -130,28 +130,29 @@ void make_room(std::string_view name, const Key& key, Json& object) {
     if (name == "segment" && shape.option != nullptr && shape.option->name == key.name) object["shape"] = shape.name;
 }
 
-void expect_default(const Object& object, const Key& key) {
+void expect_default(const Object& object, const Key& key, const std::filesystem::path& folder) {
   Json film = Json::parse(kFilm);
   Json& place = film[Json::json_pointer(kPlaces.at(object.name))];
   make_room(object.name, key, place);
   const std::string name(key.name);
   place.erase(name);
-  const std::string left_out = meaning_of(film);
-  EXPECT_FALSE(left_out.starts_with(testing::TempDir())) << left_out.substr(0, 300);
+  const std::string left_out = meaning_of(film, folder);
+  EXPECT_FALSE(left_out.starts_with(folder.string())) << left_out.substr(0, 300);
   place[name] = default_value(key);
-  EXPECT_TRUE(meaning_of(film) == left_out) << meaning_of(film).substr(0, 300);
+  EXPECT_TRUE(meaning_of(film, folder) == left_out) << meaning_of(film, folder).substr(0, 300);
   place[name] = other_value(key);
-  if (!place[name].is_null()) EXPECT_FALSE(meaning_of(film) == left_out) << "another value means the same";
+  if (!place[name].is_null()) EXPECT_FALSE(meaning_of(film, folder) == left_out) << "another value means the same";
 }
 
 TEST(Defaults, OfTheTableAreThoseOfReaders) {
+  const test::TemporaryFolder folder;
   for (const auto objects : {film_objects(), model_objects()})
     for (const Object& object : objects)
       for (const Key& key : object.keys) {
         if (!has_default(object, key)) continue;
         SCOPED_TRACE(std::string(object.name) + "." + std::string(key.name));
         ASSERT_TRUE(kPlaces.contains(object.name)) << "say where such an object stands in the film of this test";
-        expect_default(object, key);
+        expect_default(object, key, folder.path());
       }
 }
 

@@ -65,7 +65,7 @@ std::vector<std::pair<double, double>> spans_of(const SplineDirection& direction
   return spans;
 }
 
-glm::dvec3 point_of(const std::array<glm::dvec3, 16>& patch, double u, double v) {
+glm::dvec3 patch_point(const std::array<glm::dvec3, 16>& patch, double u, double v) {
   glm::dvec3 sum(0, 0, 0);
   for (std::size_t j = 0; j < 4; ++j)
     for (std::size_t i = 0; i < 4; ++i) sum += bernstein(u)[i] * bernstein(v)[j] * patch[4 * j + i];
@@ -132,7 +132,7 @@ void expect_same_surface(const PointGrid& points, const SplineDirection& u, cons
       const double s = dice.real(), t = dice.real();
       const glm::dvec3 wanted = mean_of(points, weights_at(u, points[0].size(), left + s * (right - left)),
                                         weights_at(v, points.size(), low + t * (high - low)));
-      EXPECT_LT(glm::length(point_of(net[number], s, t) - wanted), 1e-13);
+      EXPECT_LT(glm::length(patch_point(net[number], s, t) - wanted), 1e-13);
     }
   }
 }
@@ -201,7 +201,9 @@ std::vector<glm::dvec3> curve_of(const std::vector<glm::dvec3>& points, const Sp
   return curve;
 }
 
-void expect_near(const glm::dvec3& point, const glm::dvec3& wanted) { EXPECT_LT(glm::length(point - wanted), 1e-15); }
+void expect_same_point(const glm::dvec3& point, const glm::dvec3& wanted) {
+  EXPECT_LT(glm::length(point - wanted), 1e-15);
+}
 
 // Piegl and Tiller, The NURBS Book, example 3.1: degree 2 over these knots, C(5/2) = P2/8 + 6/8 P3 + P4/8.
 TEST(BSpline, HasTheValueOfTheNurbsBook) {
@@ -209,20 +211,20 @@ TEST(BSpline, HasTheValueOfTheNurbsBook) {
   for (int i = 0; i < 8; ++i) points.push_back({i * i / 64.0, i / 8.0, (i % 3) / 3.0});
   const Net net = bezier_patches({points, points}, {2, false, {0, 0, 0, 1, 2, 3, 4, 4, 5, 5, 5}}, kLine);
   ASSERT_EQ(net.size(), 5u);
-  expect_near(point_of(net[2], 0.5, 0), points[2] / 8.0 + points[3] * 0.75 + points[4] / 8.0);
-  expect_near(net[3][3], points[5]);  // the double knot: the curve goes through the point
+  expect_same_point(patch_point(net[2], 0.5, 0), points[2] / 8.0 + points[3] * 0.75 + points[4] / 8.0);
+  expect_same_point(net[3][3], points[5]);  // the double knot: the curve goes through the point
 }
 
 TEST(BSpline, UniformCubicsMeetAtOneFourOne) {
   const std::vector<glm::dvec3> p = {{0, 0, 0}, {0.25, 1, 0}, {0.5, 0, 1}, {1, 0.5, 0.25}, {1, 1, 1}};
   const auto open = curve_of(p, uniform_direction(Ends::open, 3, 5));
   ASSERT_EQ(open.size(), 7u);
-  expect_near(open[0], (p[0] + 4.0 * p[1] + p[2]) / 6.0);
-  expect_near(open[1], (2.0 * p[1] + p[2]) / 3.0);
-  expect_near(open[3], (p[1] + 4.0 * p[2] + p[3]) / 6.0);
+  expect_same_point(open[0], (p[0] + 4.0 * p[1] + p[2]) / 6.0);
+  expect_same_point(open[1], (2.0 * p[1] + p[2]) / 3.0);
+  expect_same_point(open[3], (p[1] + 4.0 * p[2] + p[3]) / 6.0);
   const auto closed = curve_of(p, uniform_direction(Ends::periodic, 3, 5));
   ASSERT_EQ(closed.size(), 16u);
-  expect_near(closed[0], (p[2] + 4.0 * p[3] + p[4]) / 6.0);
+  expect_same_point(closed[0], (p[2] + 4.0 * p[3] + p[4]) / 6.0);
   EXPECT_EQ(closed[0], closed[15]);
 }
 

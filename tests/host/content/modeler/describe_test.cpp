@@ -7,14 +7,14 @@
 namespace mars::modeler {
 namespace {
 
-Model model_of(const std::string& joints) {
+Model described_model(const std::string& joints) {
   const document::Document document(
       "{\"joints\": [" + joints + "], \"materials\": {\"fur\": {\"color\": [1, 0.5, 0]}}}", "m.json");
   return read_model(document.root());
 }
 
 TEST(Describe, ATreeWithFreedomsAndSegments) {
-  const Model model = model_of(R"(
+  const Model model = described_model(R"(
       {"name": "paw", "parent": "leg", "limits": {}},
       {"name": "body", "segment": {"shape": "box", "sbb": [[-1, -1, 1], [1, 1, 2]], "material": "fur"}},
       {"name": "leg", "parent": "body", "limits": {"y": [-30, 60.5], "z": [20, 20]}, "segment": {"shape": "box"}})");
@@ -79,7 +79,8 @@ TEST(Describe, MeshesHaveFacesAndASizeAtRest) {
 }
 
 TEST(Describe, TellsSkewedAxes) {
-  const Model model = model_of(R"({"name": "a", "y_axis": [0.5, 0.8660254037844386, 0], "segment": {"shape": "box"}},
+  const Model model =
+      described_model(R"({"name": "a", "y_axis": [0.5, 0.8660254037844386, 0], "segment": {"shape": "box"}},
                                   {"name": "b", "x_axis": [0, 1, 0], "y_axis": [-1, 0, 0]})");
   EXPECT_NEAR(skew_of(model.joints[0]), 60, 1e-9);
   EXPECT_EQ(skew_of(model.joints[1]), 0);

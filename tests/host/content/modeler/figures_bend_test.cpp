@@ -46,7 +46,7 @@ BentSkin bent(const Joint& joint, const std::vector<Axes>& frames) {
 }
 
 // A side of a patch, by the numbers of its corners; and where it is.
-struct Side {
+struct HemSide {
   std::size_t patch;
   int side;
 };
@@ -64,7 +64,7 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
 class Surface {
  public:
   explicit Surface(const std::vector<wire::Patch>& patches) {
-    std::map<Edge, Side> sides;
+    std::map<Edge, HemSide> sides;
     for (std::size_t patch = 0; patch < patches.size(); ++patch)
       for (int side = 0; side < 4; ++side) {
         const Edge edge = sides_of(patches[patch])[static_cast<std::size_t>(side)];
@@ -72,17 +72,13 @@ class Surface {
         Edge reversed = edge;
         std::reverse(reversed.begin(), reversed.end());
         if (const auto other = sides.find(reversed); other != sides.end()) {
-          joins_.push_back({{patch, side}, other->second, edge[0], edge[3]});
+          joins_.push_back({{patch, side}, other->second});
           sides.erase(other);
         } else {
           sides[edge] = {patch, side};
         }
       }
-    for (const wire::Patch& patch : patches)
-      is_regular_.push_back(std::ranges::none_of(sides_of(patch), [&](const Edge& edge) {
-        const int meet = corners_.at(edge[0]);
-        return meet == 3 || meet > 4;  // 2 or 1 at a hem
-      }));
+    classify_joins(patches);
     for (const auto& [edge, side] : sides) rims_[edge[0]] = {side, edge[3]};
     while (!rims_.empty()) hems_.push_back(taken_loop());
   }
@@ -104,8 +100,7 @@ class Surface {
   double jump(const std::vector<wire::Patch>& now, bool at_other_corners) const {
     double most = 0;
     for (const Join& join : joins_) {
-      if (corners_.at(join.from) != 4 || corners_.at(join.to) != 4) continue;
-      if ((is_regular_[join.one.patch] && is_regular_[join.other.patch]) != at_other_corners) continue;
+      if (!join.between_fours || join.is_regular != at_other_corners) continue;
       most = std::max(most, degrees_between(normal_on(now[join.one.patch], join.one.side, 0.4),
                                             normal_on(now[join.other.patch], join.other.side, 0.6)));
     }
@@ -132,22 +127,37 @@ class Surface {
           const double u = (i + 0.5) / kSteps, v = (j + 0.5) / kSteps;
           volume += glm::dot(point_of(patch, u, v), normal_of(patch, u, v)) / (3.0 * kSteps * kSteps);
         }
-    for (const std::vector<Side>& hem : hems_) volume += lid(now, hem);
+    for (const std::vector<HemSide>& hem : hems_) volume += lid(now, hem);
     return volume;
   }
 
  private:
   struct Join {
-    Side one, other;
-    Point from, to;
+    HemSide one, other;
+    bool between_fours = false;  // four patches meet at both of its ends
+    bool is_regular = false;     // and at the other corners of both patches, but for hems
   };
   struct Rim {
-    Side side;
+    HemSide side;
     Point to;
   };
 
-  std::vector<Side> taken_loop() {
-    std::vector<Side> loop;
+  void classify_joins(const std::vector<wire::Patch>& patches) {
+    std::vector<bool> is_regular;
+    for (const wire::Patch& patch : patches)
+      is_regular.push_back(std::ranges::none_of(sides_of(patch), [&](const Edge& edge) {
+        const int meet = corners_.at(edge[0]);
+        return meet == 3 || meet > 4;  // 2 or 1 at a hem
+      }));
+    for (Join& join : joins_) {
+      const Edge edge = sides_of(patches[join.one.patch])[static_cast<std::size_t>(join.one.side)];
+      join.between_fours = corners_.at(edge[0]) == 4 && corners_.at(edge[3]) == 4;
+      join.is_regular = is_regular[join.one.patch] && is_regular[join.other.patch];
+    }
+  }
+
+  std::vector<HemSide> taken_loop() {
+    std::vector<HemSide> loop;
     for (auto at = rims_.begin(); at != rims_.end();) {
       const Rim rim = at->second;
       loop.push_back(rim.side);
@@ -158,23 +168,22 @@ class Surface {
   }
 
   // Cones from the hem's middle to its sides, seen from outside.
-  static double lid(const std::vector<wire::Patch>& now, const std::vector<Side>& hem) {
+  static double lid(const std::vector<wire::Patch>& now, const std::vector<HemSide>& hem) {
     glm::dvec3 middle(0);
-    const auto corner = [&](const Side& side, std::size_t end) {
-      const Point& p = sides_of(now[side.patch])[static_cast<std::size_t>(side.side)][end];
+    const auto corner = [&](const HemSide& side, std::size_t end) {
+      const Point p = sides_of(now[side.patch])[static_cast<std::size_t>(side.side)][end];
       return glm::dvec3(p[0], p[1], p[2]);
     };
-    for (const Side& side : hem) middle += corner(side, 0) / static_cast<double>(hem.size());
+    for (const HemSide& side : hem) middle += corner(side, 0) / static_cast<double>(hem.size());
     double volume = 0;
-    for (const Side& side : hem) volume += glm::dot(middle, glm::cross(corner(side, 3), corner(side, 0))) / 6;
+    for (const HemSide& side : hem) volume += glm::dot(middle, glm::cross(corner(side, 3), corner(side, 0))) / 6;
     return volume;
   }
 
   std::vector<Join> joins_;
   std::map<Point, Rim> rims_;
-  std::vector<std::vector<Side>> hems_;
+  std::vector<std::vector<HemSide>> hems_;
   std::map<Point, int> corners_;  // how many patches meet there
-  std::vector<bool> is_regular_;  // of each patch
 };
 
 struct Bounds {

@@ -7,6 +7,7 @@
 
 #include "host/content/modeler/teapot.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::modeler {
 namespace {
@@ -15,9 +16,6 @@ namespace fs = std::filesystem;
 
 class PatchFileTest : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder_); }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path write(const std::string& text) const {
     std::ofstream(folder_ / "in.bpt") << text;
     return folder_ / "in.bpt";
@@ -27,7 +25,7 @@ class PatchFileTest : public testing::Test {
     return document::failure_of([&] { read_patch_file(path); });
   }
 
-  fs::path folder_ = fs::temp_directory_path() / "mars_patch_file_test";
+  const test::TemporaryFolder folder_;
 };
 
 std::string one_patch(const std::string& degrees = "3 3") {

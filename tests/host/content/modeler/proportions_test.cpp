@@ -10,6 +10,7 @@
 #include "host/content/modeler/read_model.h"
 #include "host/content/modeler/scale_model.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::modeler {
 namespace {
@@ -24,13 +25,13 @@ constexpr const char* kArm = R"({"joints": [
     {"name": "thumb", "parent": "left-hand", "place": [1, 0, -0.5],
      "segment": {"shape": "box", "sbb": [[0, 0, -0.2], [0.2, 0.2, 0]]}}]})";
 
-Model model_of(const std::string& json) {
+Model measured_model(const std::string& json) {
   const document::Document document(json, "m.json");
   return read_model(document.root());
 }
 
 Model scaled(const std::string& json, const std::string& proportions) {
-  Model model = model_of(json);
+  Model model = measured_model(json);
   const document::Document document(proportions, "p.json");
   apply(read_proportions(document.root()), model);
   return model;
@@ -141,12 +142,7 @@ TEST(Proportions, AManHasTheHeightAndStandsWhereHeStood) {
 
 class Derived : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "mars-derived";
-    fs::create_directories(folder_);
-    write("arm.json", kArm);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
+  void SetUp() override { write("arm.json", kArm); }
 
   void write(const char* name, std::string_view text) { document::write_whole_file(folder_ / name, text); }
   std::string failure(const char* text) {
@@ -154,7 +150,7 @@ class Derived : public testing::Test {
     return document::failure_of([&] { load_model(folder_ / "it.json"); });
   }
 
-  fs::path folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(Derived, ReadsTheOtherFileFromItsOwnFolder) {
@@ -193,7 +189,7 @@ TEST(ScaleModel, ChangesPlacesAndBoxesInPlace) {
   Proportions proportions;
   proportions.joints = {{"arm", false, {2, 1, 0.5}}};
   proportions.ground = false;
-  scale_model(json, model_of(kArm), proportions);
+  scale_model(json, measured_model(kArm), proportions);
   EXPECT_EQ(json["joints"][1]["place"].dump(), "[0.5,0,-1]");
   EXPECT_EQ(json["joints"][0]["segment"]["sbb"].dump(), "[[-1,-0.5,-1],[1,0.5,0]]");
   EXPECT_EQ(json["joints"][3], document::Json::parse(kArm)["joints"][3]);
@@ -204,7 +200,7 @@ TEST(ScaleModel, MultipliesTheProportionsOfADerivedModel) {
       document::Json::parse(R"({"from": "m.json", "proportions": {"joints": {"arm": 2}, "height": 3}})");
   Proportions proportions;
   proportions.joints = {{"arm", false, {1, 1, 0.5}}, {"left-hand", true, {3, 3, 3}}};
-  scale_model(json, model_of(kArm), proportions);
+  scale_model(json, measured_model(kArm), proportions);
   EXPECT_EQ(json["proportions"].dump(), R"({"joints":{"arm":[2,2,1]},"height":3,"branches":{"left-hand":3}})");
 }
 

@@ -6,7 +6,7 @@
 namespace mars::modeler {
 namespace {
 
-Model model_of(const std::string& json) {
+Model model_of_text(const std::string& json) {
   const document::Document document(json, "m.json");
   return read_model(document.root());
 }
@@ -17,7 +17,7 @@ std::string spline_model(const std::string& bspline) {
 }
 
 // Rows of points along u, all different.
-std::string grid(int columns, int rows) {
+std::string grid_of_points(int columns, int rows) {
   std::string text = "[";
   for (int j = 0; j < rows; ++j) {
     text += j ? ", [" : "[";
@@ -30,7 +30,7 @@ std::string grid(int columns, int rows) {
 
 TEST(ReadBSpline, MakesAPatchForEveryPairOfSpans) {
   const auto patches = [](const std::string& rest) {
-    return model_of(spline_model("{\"points\": " + grid(6, 5) + rest + "}")).shapes[0].patches.size();
+    return model_of_text(spline_model("{\"points\": " + grid_of_points(6, 5) + rest + "}")).shapes[0].patches.size();
   };
   EXPECT_EQ(patches(""), 3u * 2u);
   EXPECT_EQ(patches(R"(, "u": {"ends": "periodic"}, "v": {"degree": 1})"), 6u * 4u);
@@ -40,7 +40,7 @@ TEST(ReadBSpline, MakesAPatchForEveryPairOfSpans) {
 }
 
 TEST(ReadBSpline, RowsRunAlongU) {
-  const Model model = model_of(spline_model("{\"points\": " + grid(4, 5) + "}"));
+  const Model model = model_of_text(spline_model("{\"points\": " + grid_of_points(4, 5) + "}"));
   const auto& points = model.shapes[0].patches[0].points;
   EXPECT_EQ(points[0], (std::array{0.0f, 0.0f, 0.5f}));
   EXPECT_EQ(points[3], (std::array{0.3f, 0.0f, 0.5f}));
@@ -57,8 +57,8 @@ class BrokenBSpline : public testing::TestWithParam<BrokenSpline> {};
 TEST_P(BrokenBSpline, IsOneClearError) {
   std::string bspline = GetParam().bspline;
   if (const auto at = bspline.find("GRID"); at != std::string::npos)
-    bspline.replace(at, 4, "\"points\": " + grid(5, 4));
-  const std::string failure = document::failure_of([&] { model_of(spline_model(bspline)); });
+    bspline.replace(at, 4, "\"points\": " + grid_of_points(5, 4));
+  const std::string failure = document::failure_of([&] { model_of_text(spline_model(bspline)); });
   EXPECT_TRUE(document::holds(failure, "m.json:1: shapes.sail.bspline" + std::string(GetParam().place) + ": "))
       << failure;
   EXPECT_TRUE(document::holds(failure, GetParam().reported)) << failure;

@@ -11,6 +11,7 @@
 #include "host/content/document/file.h"
 #include "host/programs/node_counter.h"
 #include "tests/host/experiments/forecast/simulated_film.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::forecast {
 namespace {
@@ -34,7 +35,8 @@ class CountsFile : public testing::Test {
 
   const SimulatedFilm film_{"robot-arm", "10-20", "ethernet"};
   const FilmCounts counts_ = film_.count_exactly();
-  const std::filesystem::path path_ = testing::TempDir() + "film.counts";
+  const test::TemporaryFolder folder_;
+  const std::filesystem::path path_ = folder_ / "film.counts";
 };
 
 TEST_F(CountsFile, IsReadAsItWasWritten) {
@@ -54,7 +56,8 @@ TEST_F(CountsFile, IsReadAsItWasWritten) {
 
 TEST(CountsOfShadows, AreReadAsTheyWereWritten) {
   const SimulatedFilm film("s3s", "0-2", "ethernet");
-  const std::string path = testing::TempDir() + "shadows.counts";
+  const test::TemporaryFolder folder;
+  const auto path = folder / "shadows.counts";
   const FilmCounts counts = film.count_exactly();
   EXPECT_FALSE(counts.keyframes.front().casters.empty());
   save_counts(counts, kContent, path);

@@ -13,6 +13,7 @@
 #include "host/experiments/calibration_films.h"
 #include "host/programs/node_counter.h"
 #include "tests/host/experiments/forecast/simulated_film.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::forecast {
 namespace {
@@ -77,12 +78,12 @@ TEST(ForecastsOfFiles, AreAsSimulated) {
     }
 }
 
-// A platform of MARS, changed by a patch of JSON.
-std::string changed_platform(const std::string& name, const char* patch) {
+// A platform of MARS, changed by a patch of JSON and written into the folder.
+std::string changed_platform(const test::TemporaryFolder& folder, const std::string& name, const char* patch) {
   std::ifstream file(std::string(MARS_SOURCE_DIR) + "/cluster/platforms/" + name + ".json");
   nlohmann::json platform = nlohmann::json::parse(file);
   platform.merge_patch(nlohmann::json::parse(patch));
-  const std::string changed = testing::TempDir() + name + "-changed.json";
+  const std::string changed = folder / (name + "-changed.json");
   std::ofstream(changed) << platform;
   return changed;
 }
@@ -97,6 +98,7 @@ struct Cluster {
 
 // Each takes so much longer that a forecast that left it out would be far off.
 TEST(ForecastsOfClusters, AreAsSimulated) {
+  const test::TemporaryFolder folder;
   for (const Cluster& cluster :
        {Cluster{"slow computers", "fat-tree", "{}", R"({"computers": {"speeds": [[1, 0.5]]}})", 1.5},
         Cluster{"detours", "fat-tree", "{}",
@@ -106,7 +108,7 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
         Cluster{"a slow server", "ethernet", "{}", R"({"storage": {"rate": 1e6}})", 1.5},
         Cluster{"slow writers", "ethernet", "{}", R"({"storage": {"writer_rate": 2e6}})", 1.5}}) {
     const auto film = [&](const char* patch) {
-      return SimulatedFilm("s3", "0-11", changed_platform(cluster.platform, patch), Files::nodes);
+      return SimulatedFilm("s3", "0-11", changed_platform(folder, cluster.platform, patch), Files::nodes);
     };
     const SimulatedFilm even = film(cluster.even), changed = film(cluster.patch);
     const Forecast forecast = changed.forecast(4, 1);
@@ -118,21 +120,22 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
   }
 }
 
-// A film of mars calibrate, as SimulatedFilm takes it.
-std::string calibration_film(const std::string& name) {
-  const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
+// A film of mars calibrate, written into the folder, as SimulatedFilm takes it.
+std::string calibration_film(const test::TemporaryFolder& folder, const std::string& name) {
+  static const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
   const auto found = std::ranges::find(films, name, &experiments::CalibrationFilm::name);
-  const std::string path = testing::TempDir() + "calibration-" + name;
+  const std::string path = folder / ("calibration-" + name);
   std::ofstream(path + ".json") << found->text;
   return path;
 }
 
 // Where bending takes a large part of the time.
 TEST(ForecastsOfSkins, AreAsSimulated) {
+  const test::TemporaryFolder folder;
   for (const auto& [name, kind] : {std::pair{"nets", wire::Work::net_term},
                                    {"skins", wire::Work::skin_weight},
                                    {"duals", wire::Work::dual_weight}}) {
-    SimulatedFilm film(calibration_film(name), "0-5", "fat-tree");
+    SimulatedFilm film(calibration_film(folder, name), "0-5", "fat-tree");
     const auto seconds_with = [&](double cost) {
       experiments::Platform platform = film.platform();
       platform.machine.work[static_cast<std::size_t>(kind)] = cost;

@@ -15,6 +15,7 @@
 #include "host/render/farm/assembly.h"
 #include "host/render/sinks/counted_files.h"
 #include "node/firmware.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::forecast {
 namespace {
@@ -28,7 +29,8 @@ film::CompiledFilm small_film(const std::string& name, Files files, const std::s
   nlohmann::json film = nlohmann::json::parse(file);
   for (nlohmann::json& light : film["lights"])
     if (light.contains("shadow")) light.merge_patch(nlohmann::json::parse(light_patch));
-  const std::string changed = testing::TempDir() + name + "-lit.json";
+  const test::TemporaryFolder folder;
+  const auto changed = folder / "lit.json";
   std::ofstream(changed) << film;
   return film::load_film(changed, options);
 }

@@ -9,7 +9,7 @@
 #include "host/content/document/whole_file.h"
 #include "host/content/film/compile.h"
 #include "host/programs/node_counter.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::trials {
 namespace {
@@ -70,7 +70,7 @@ class PlantedRenderer {
   }
 
  private:
-  sinks::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 double width(const experiments::Spread& spread) { return spread.high / spread.low; }

@@ -18,7 +18,7 @@
 #include "host/render/sinks/pixel_hash.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/farm/empty_film.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::composer {
 namespace {
@@ -214,7 +214,7 @@ class Group {
   }
 
   std::mt19937 random_;
-  const sinks::TemporaryFolder place_;
+  const test::TemporaryFolder place_;
   const farm::EmptyFilm film_;
   const sinks::Manifest manifest_;
   sinks::FrameFolder folder_;

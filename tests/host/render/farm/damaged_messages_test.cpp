@@ -17,13 +17,13 @@
 #include "host/render/farm/node_inbox.h"
 #include "host/render/trace/trace_file.h"
 #include "tests/host/render/farm/scripted_node.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::farm {
 namespace {
 
 constexpr int kMessages = 3000;  // of each type
-constexpr std::uint32_t kWidth = 16, kHeight = 8;
+constexpr std::uint32_t kDamagedWidth = 16, kDamagedHeight = 8;
 
 using Bytes = std::vector<std::byte>;
 
@@ -131,7 +131,8 @@ wire::Hello sound_hello() {
 
 // The host's, with one node that has one slot.
 struct Inbox {
-  explicit Inbox(wire::PixelFormat format = wire::PixelFormat::rgb8) : inbox(kWidth, kHeight, format, slots, nullptr) {}
+  explicit Inbox(wire::PixelFormat format = wire::PixelFormat::rgb8)
+      : inbox(kDamagedWidth, kDamagedHeight, format, slots, nullptr) {}
 
   NodeSlots slots{1, 1};
   NodeInbox inbox;
@@ -147,10 +148,10 @@ TEST(DamagedMessages, Loaded) {
 
 constexpr wire::PixelFormat kFormats[] = {wire::PixelFormat::rgb8, wire::PixelFormat::half};
 
-Bytes sound_strip(std::uint32_t by_message, wire::PixelFormat format) {
+Bytes sound_strip_message(std::uint32_t by_message, wire::PixelFormat format) {
   wire::Strip header{};
   header.last = 1;
-  header.last_line = kHeight;
+  header.last_line = kDamagedHeight;
   header.by_message = by_message;
   StripStore store;
   const std::size_t words = wire::pixel_words(format);
@@ -160,8 +161,8 @@ Bytes sound_strip(std::uint32_t by_message, wire::PixelFormat format) {
 }
 
 void paste(const StripMessage& message, wire::PixelFormat format) {
-  compositor::Compositor compositor(kWidth, kHeight, 8, format);
-  compositor::Frame frame(kWidth, kHeight, 8, 0, format);
+  compositor::Compositor compositor(kDamagedWidth, kDamagedHeight, 8, format);
+  compositor::Frame frame(kDamagedWidth, kDamagedHeight, 8, 0, format);
   compositor.begin_frame(frame);
   compositor.paste_constant(message.constant_runs(), message.constant_pixels(), &frame);
   compositor.paste_moving(frame, message.moving_runs(), message.moving_pixels());
@@ -171,7 +172,8 @@ TEST(DamagedMessages, Strip) {
   for (const wire::PixelFormat format : kFormats) {
     StripStore store;
     std::optional<Inbox> host;
-    Exchange exchange{wire::kStrip, sound_strip(1, format), [&] { paste(*host->inbox.receive_strip(store), format); }};
+    Exchange exchange{wire::kStrip, sound_strip_message(1, format),
+                      [&] { paste(*host->inbox.receive_strip(store), format); }};
     exchange.ask = [&] {
       host.emplace(format);
       host->slots.give({0, 0});
@@ -186,7 +188,7 @@ void expect_refusals_of_slots(wire::PixelFormat format) {
   std::optional<Inbox> host;
   std::optional<messages::OfferedMemory> slot;  // the node's
   Damage later;
-  Exchange exchange{wire::kStrip, sound_strip(0, format), [&] {
+  Exchange exchange{wire::kStrip, sound_strip_message(0, format), [&] {
                       const StripMessage strip = *host->inbox.receive_strip(store);
                       const auto bytes = slot->bytes().first(1000);
                       std::ranges::copy(later.damaged({bytes.begin(), bytes.end()}, false), bytes.begin());
@@ -246,7 +248,7 @@ TEST(DamagedMessages, Trace) {
   trace::Trace trace;
   trace.begin(std::vector{sound_hello()}, 0);
   EXPECT_GT(refused_of(wire::kTrace, sound, [&] { trace.add(0, Inbox().inbox.receive_events()); }), kMessages / 10);
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   trace::write_trace(folder.path() / "trace.json", {"film", "threads"}, trace);
 }
 

@@ -25,7 +25,7 @@
 #include "host/render/resume/resume.h"
 #include "host/render/sinks/pixel_hash.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::resume {
 namespace {
@@ -260,7 +260,7 @@ class PowerLoss : public testing::Test {
     }
   }
 
-  const sinks::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(PowerLoss, LeavesNoTornFrameAndWhatIsNotRecordedIsRenderedAgain) {

@@ -21,7 +21,7 @@
 #include "host/content/film/frame_content.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::resume {
 namespace {
@@ -87,7 +87,7 @@ class Resume : public testing::Test {
     return document::failure_of([&] { open(wish); });
   }
 
-  const sinks::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   int compiled_ = 0;
 };
 

@@ -11,8 +11,6 @@
 #include <chrono>
 #include <cstring>
 
-#include "host/child/environment.h"
-
 namespace mars::test {
 namespace {
 
@@ -30,8 +28,6 @@ child::Command serving_command(const std::string& socket, int nodes, bool mpi) {
 
 StudioEnd::StudioEnd() {
   signal(SIGPIPE, SIG_IGN);
-  std::string folder = child::temporary_folder(child::own_environment()) + "/mars-serve-XXXXXX";
-  folder_ = mkdtemp(folder.data());
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string path = folder_ / "host";
@@ -44,8 +40,6 @@ StudioEnd::StudioEnd() {
 StudioEnd::~StudioEnd() {
   close();
   ::close(listening_);
-  host_.reset();
-  std::filesystem::remove_all(folder_);
 }
 
 void StudioEnd::start(int nodes, bool mpi) {

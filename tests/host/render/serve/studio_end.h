@@ -15,6 +15,7 @@
 #include "host/child/process.h"
 #include "host/render/pictures/reading.h"
 #include "node/wire/protocol.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::test {
 
@@ -57,7 +58,7 @@ class StudioEnd {
   bool read_all(void* to, std::size_t bytes);
   void paint(const Answer& answer);
 
-  std::filesystem::path folder_;
+  const TemporaryFolder folder_;
   int listening_ = -1;
   int socket_ = -1;
   child::Descriptor errors_;

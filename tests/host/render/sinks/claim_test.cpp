@@ -12,7 +12,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -39,7 +39,7 @@ class ClaimOf {
   }
 
  private:
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 TEST(Claim, ReadsAgain) {

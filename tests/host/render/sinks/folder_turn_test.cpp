@@ -10,7 +10,7 @@
 
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -34,7 +34,7 @@ ProcessName ended() {
 void age(const fs::path& file, std::chrono::seconds by) { fs::last_write_time(file, fs::last_write_time(file) - by); }
 
 TEST(FolderTurn, OneAtATime) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::atomic<int> at_once = 0, taken = 0, together = 0;
   {
     std::vector<std::jthread> threads;
@@ -57,14 +57,14 @@ TEST(FolderTurn, OneAtATime) {
 }
 
 TEST(FolderTurn, ThatOfAnEndedRunDoesNotCount) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RunsFolder before(folder.path(), ended()), runs(folder.path(), this_process());
   before.add_own_file(kTurnEnding, to_json(before.self()).dump());
   EXPECT_EQ(document::failure_of([&] { FolderTurn(runs, 2s); }), "");
 }
 
 TEST(FolderTurn, OfARunOnAnotherMachineItCountsForAMinute) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RunsFolder there(folder.path(), elsewhere()), runs(folder.path(), this_process());
   const fs::path turn = there.add_own_file(kTurnEnding, to_json(there.self()).dump());
   age(turn, 50s);
@@ -75,14 +75,14 @@ TEST(FolderTurn, OfARunOnAnotherMachineItCountsForAMinute) {
 }
 
 TEST(FolderTurn, ARunWhoseFileIsRenamedMeanwhileHasNotEnded) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RunsFolder runs(folder.path(), this_process());
   const FolderTurn turn(runs);
   EXPECT_FALSE(turn.has_ended({"n7-1-x", {folder / ".runs/n7-1-x.waits"}})) << "it was listed, and now is .turn";
 }
 
 TEST(FolderTurn, ARunThatWaitsRenewsItsFile) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RunsFolder first(folder.path(), this_process()), second(folder.path(), this_process());
   std::optional<FolderTurn> turn(first);
   const std::jthread waits([&] { const FolderTurn late(second, 30s); });
@@ -109,7 +109,7 @@ TEST(FolderTurn, ARunThatWaitsRenewsItsFile) {
 }
 
 TEST(FolderTurn, WhatTheSystemRefusesIsNotTakenForALoss) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RunsFolder blocked(folder.path(), this_process()), runs(folder.path(), this_process());
   fs::create_directories(blocked.own_file(kTurnEnding));
   const std::string failure = document::failure_of([&] { const FolderTurn turn(blocked); });
@@ -140,7 +140,7 @@ TEST(FolderTurn, PausesGrowAndDiffer) {
 }
 
 TEST(FolderTurn, WhoHasLostItLearnsThat) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RunsFolder runs(folder.path(), this_process());
   const FolderTurn turn(runs);
   turn.confirm();
@@ -149,7 +149,7 @@ TEST(FolderTurn, WhoHasLostItLearnsThat) {
 }
 
 TEST(FolderTurn, NothingIsWrittenWhereALinkLeads) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::create_directory(folder / "elsewhere");
   fs::create_directory(folder / "out");
   fs::create_directory_symlink("../elsewhere", folder / "out/.runs");
@@ -159,7 +159,7 @@ TEST(FolderTurn, NothingIsWrittenWhereALinkLeads) {
 }
 
 TEST(RunsFolder, IsForWhomTheFolderOfFramesIsFor) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::group_write, fs::perm_options::add);
   const RunsFolder runs(folder.path(), this_process());
   const FolderTurn turn(runs);

@@ -24,7 +24,7 @@
 #include "node/wire/film.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -87,7 +87,7 @@ TEST(FrameFolder, NamesSortAsFramesDo) {
 }
 
 TEST(FrameFolder, IsMadeWithItsManifest) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = small_manifest();
   const FrameFolder frames(folder / "a/b", manifest);
   manifest.pixel_hashes.resize(5);
@@ -96,7 +96,7 @@ TEST(FrameFolder, IsMadeWithItsManifest) {
 }
 
 TEST(FrameFolder, ManifestsKeepNamesThatAreNoText) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = small_manifest();
   manifest.film = "\xff.json";
   const FrameFolder frames(folder.path(), manifest);
@@ -104,7 +104,7 @@ TEST(FrameFolder, ManifestsKeepNamesThatAreNoText) {
 }
 
 TEST(FrameFolder, AtItsEndOnlyFramesAndManifestAreThere) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   EXPECT_EQ(folder.entries(), 6u);
   EXPECT_EQ(read_manifest(folder.path()).pixel_hashes[1],
@@ -119,7 +119,7 @@ fs::path file_of_run(const fs::path& folder, const std::string& ending) {
 }
 
 TEST(FrameFolder, WhatItHasRenderedDoesNotDependOnReadingItsClaimAgain) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), small_manifest());
   put_frames(frames, small_manifest(), 7);
   document::write_whole_file(file_of_run(folder.path(), ".claim"), "nonsense");
@@ -130,7 +130,7 @@ TEST(FrameFolder, WhatItHasRenderedDoesNotDependOnReadingItsClaimAgain) {
 }
 
 TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
   put_frames(frames, of_frames({1}), 7);
   fs::remove(folder / "frames.json");
@@ -141,7 +141,7 @@ TEST(FrameFolder, ARunThatCannotRecordItsHashesFails) {
 }
 
 TEST(FrameFolder, ARunThatFailsDoesNotWaitForOneThatHangs) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   auto frames = std::make_unique<FrameFolder>(folder.path(), small_manifest());
   ProcessName elsewhere = this_process();
   elsewhere.boot = "another";
@@ -155,7 +155,7 @@ TEST(FrameFolder, ARunThatFailsDoesNotWaitForOneThatHangs) {
 }
 
 TEST(FrameFolder, TheLongestFilmsManifestIsRead) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = of_frames({0, wire::kMostFrames - 1});
   manifest.film_frames = wire::kMostFrames;
   fill(folder.path(), manifest, 7);
@@ -163,7 +163,7 @@ TEST(FrameFolder, TheLongestFilmsManifestIsRead) {
 }
 
 TEST(FrameFolder, ARunThatFailsRecordsWhatItHasRendered) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   {
     FrameFolder frames(folder.path(), small_manifest());
     put_frames(frames, of_frames({1, 2}), 7);
@@ -173,7 +173,7 @@ TEST(FrameFolder, ARunThatFailsRecordsWhatItHasRendered) {
 }
 
 TEST(FrameFolder, WhatAKilledRunHasRenderedIsKnownBeforeAndAfterItIsClearedAway) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   run_and_kill(folder.path(), small_manifest(), {1, 2});
   EXPECT_EQ(verify_folder(folder.path()).troubles.size(), 3u);
   EXPECT_TRUE(fs::exists(folder / ".runs"));
@@ -187,14 +187,14 @@ TEST(FrameFolder, WhatAKilledRunHasRenderedIsKnownBeforeAndAfterItIsClearedAway)
 }
 
 TEST(FrameFolder, ClearingMakesNoFolder) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   clear_ended_runs(folder.path());
   clear_ended_runs(folder / "none");
   EXPECT_EQ(folder.entries(), 0u);
 }
 
 TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
   const fs::path of_another = folder / ".runs/vm-1-another.frame-0003.png.part";
   document::create_file(of_another, "its run has ended");
@@ -212,7 +212,7 @@ TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
 }
 
 TEST(FrameFolder, RunsThatWouldBeMixedAreRefusedAndChangeNothing) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1, 2}));
   put_frames(frames, of_frames({1}), 7);
   const std::string manifest = document::read_file(folder / "frames.json");
@@ -231,7 +231,7 @@ TEST(FrameFolder, RunsThatWouldBeMixedAreRefusedAndChangeNothing) {
 }
 
 TEST(FrameFolder, OfARunOnAnotherMachineTheClaimCountsForAMinute) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ProcessName elsewhere = this_process();
   elsewhere.boot = "another";
   run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
@@ -247,7 +247,7 @@ TEST(FrameFolder, OfARunOnAnotherMachineTheClaimCountsForAMinute) {
 }
 
 TEST(FrameFolder, ARunOnAnotherMachineIsRefusedToOnceItIsSeenToLive) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ProcessName elsewhere = this_process();
   elsewhere.boot = "another";
   run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
@@ -275,7 +275,7 @@ TEST(FrameFolder, ARunOnAnotherMachineIsRefusedToOnceItIsSeenToLive) {
 
 // Who started its job knows that it has ended, though it cannot be seen.
 TEST(FrameFolder, ARunOnAnotherMachineThatIsKnownToHaveEndedIsInNobodysWay) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   ProcessName elsewhere = this_process();
   elsewhere.boot = "another";
   run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
@@ -289,14 +289,14 @@ TEST(FrameFolder, ARunOnAnotherMachineThatIsKnownToHaveEndedIsInNobodysWay) {
 
 // A run that was stopped so long that another machine took its claim away does not write over that one's frames.
 TEST(FrameFolder, WhoHasLostItsClaimWritesNoMore) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1, 2}));
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / ".runs")) fs::remove(entry.path());
   EXPECT_TRUE(document::holds(document::failure_of([&] { frames.finish(); }), "claim to the folder is gone"));
 }
 
 TEST(FrameFolder, WaitsWhileItCannotWriteAndGoesOn) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   as_nobody(folder.path(), [&] {
     std::atomic<int> said = 0;
     const Patience::Bounds bounds{.warn = [&](const std::string&) { ++said; }, .pause = 2ms};
@@ -315,7 +315,7 @@ TEST(FrameFolder, WaitsWhileItCannotWriteAndGoesOn) {
 }
 
 TEST(FrameFolder, WaitsNoLongerThanItMayAndSaysHowToGoOn) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   as_nobody(folder.path(), [&] {
     FrameFolder frames(folder / "out", of_frames({1}), this_process(), {.longest = 20ms, .pause = 2ms});
     fs::permissions(folder / "out/.runs", fs::perms::owner_read | fs::perms::owner_exec);
@@ -328,7 +328,7 @@ TEST(FrameFolder, WaitsNoLongerThanItMayAndSaysHowToGoOn) {
 
 TEST(FrameFolder, WhoseFolderIsRemovedOrRenamedSaysSoAtOnce) {
   for (const bool renamed : {false, true}) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     FrameFolder frames(folder / "out", of_frames({1, 2}));
     put_frames(frames, of_frames({1}), 7);
     if (renamed)
@@ -345,7 +345,7 @@ TEST(FrameFolder, WhoseFolderIsRemovedOrRenamedSaysSoAtOnce) {
 TEST(FrameFolder, OfRunsThatStartAtOnceOneGetsAFrameTwoWant) {
   constexpr int kRuns = 12;
   for (int round = 0; round < 5; ++round) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     std::barrier start(kRuns), tried(kRuns);
     std::atomic<int> won = 0, refused = 0;
     std::vector<std::jthread> runs;
@@ -372,7 +372,7 @@ TEST(FrameFolder, OfRunsThatStartAtOnceOneGetsAFrameTwoWant) {
 
 TEST(FrameFolder, OfRunsOfOtherFramesNothingIsLost) {
   constexpr std::uint32_t kRuns = 12;
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<std::jthread> runs;
   for (std::uint32_t frame = 0; frame < kRuns; ++frame)
     runs.emplace_back([&, frame] { fill(folder.path(), of_frames({frame}), 7); });
@@ -383,7 +383,7 @@ TEST(FrameFolder, OfRunsOfOtherFramesNothingIsLost) {
 }
 
 TEST(FrameFolder, NothingIsWrittenThroughLinks) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   document::write_whole_file(folder / "precious", "old");
   fs::create_directory(folder / "out");
   for (const char* name : {"frame-0001.png", "frame-0001.png.part", "frames.json.part"})
@@ -400,7 +400,7 @@ TEST(FrameFolder, NothingIsWrittenThroughLinks) {
 }
 
 TEST(FrameFolder, AnotherFilmsFramesDoNotPassAsThisOnes) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = small_manifest();
   fill(folder / "f", manifest, 7);
   {
@@ -416,7 +416,7 @@ TEST(FrameFolder, AnotherFilmsFramesDoNotPassAsThisOnes) {
 
 // Neither followed nor opened: what they lead to stays as it is.
 TEST(FrameFolder, WhatHasAFramesNameAndIsNoneIsRenderedAgain) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   document::write_whole_file(folder / "precious", "old");
   for (const std::uint32_t frame : small_manifest().frames)
@@ -437,7 +437,7 @@ TEST(FrameFolder, WhatHasAFramesNameAndIsNoneIsRenderedAgain) {
 
 // A link to a frame on another disk is one.
 TEST(FrameFolder, AFrameMayBeMovedAwayAndLinked) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder / "out", of_frames({1}), 7);
   fs::rename(folder / "out/frame-0001.png", folder / "elsewhere.png");
   fs::create_symlink("../elsewhere.png", folder / "out/frame-0001.png");
@@ -445,7 +445,7 @@ TEST(FrameFolder, AFrameMayBeMovedAwayAndLinked) {
 }
 
 TEST(FrameFolder, FramesOfTheSameFilmAreAdded) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = of_frames({1, 2, 5});
   fill(folder / "f", manifest, 7);
   fill(folder / "f", of_frames({2, 3}), 7);
@@ -457,7 +457,7 @@ TEST(FrameFolder, FramesOfTheSameFilmAreAdded) {
 }
 
 TEST(FrameFolder, TellsWhereItCannotBe) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   document::write_whole_file(folder / "file", "x");
   const auto failure = [&](const std::string& name) {
     return document::failure_of([&] { FrameFolder(folder / name, small_manifest()); });
@@ -467,7 +467,7 @@ TEST(FrameFolder, TellsWhereItCannotBe) {
 }
 
 TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_TRUE(document::holds(document::failure_of([&] { read_manifest(folder.path()); }), "it has no frames.json"));
   const auto failure_with = [&](const std::string& text) {
     document::write_whole_file(folder / "frames.json", text);
@@ -502,7 +502,7 @@ TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
 
 // Whoever reads waits for none, and reads no device to its end, which never comes.
 TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   const fs::path manifest = folder / "frames.json";
   fs::rename(manifest, folder / "kept");
@@ -529,7 +529,7 @@ TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
 
 TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
   for (const char* ending : {"claim", "turn", "hashes", "waits"}) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     fill(folder.path(), small_manifest(), 7);
     fs::create_directory(folder / ".runs");
     const fs::path file = folder / (std::string(".runs/vm-1-abc.") + ending);
@@ -547,7 +547,7 @@ TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
 }
 
 TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   fs::permissions(folder / "frames.json", fs::perms::none);
   as_nobody(folder.path(), [&] {
@@ -559,7 +559,7 @@ TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
 }
 
 TEST(FrameFolder, RivalsThatCannotBeListedAreAnError) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   fs::create_directory(folder / ".runs");
   fs::permissions(folder / ".runs", fs::perms::owner_write | fs::perms::owner_exec);
@@ -571,7 +571,7 @@ TEST(FrameFolder, RivalsThatCannotBeListedAreAnError) {
 }
 
 TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::create_directories(folder / "frame-0001.png/below");
   const std::string failure = failure_to_claim(folder.path(), small_manifest());
   EXPECT_TRUE(document::holds(failure, "frame-0001.png: cannot remove: Directory not empty (it is a folder with"))
@@ -579,7 +579,7 @@ TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
 }
 
 TEST(FrameFolder, FramesOfAnotherFormatDoNotPassAsThisOnes) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), in_format(PictureFormat::png16), 7);
   {
     const FrameFolder running(folder.path(), in_format(PictureFormat::png));

@@ -7,7 +7,7 @@
 
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -23,7 +23,7 @@ class LeaseOfAFile : public testing::Test {
   }
   bool is_young() const { return fs::file_time_type::clock::now() - fs::last_write_time(file_) < 30min; }
 
-  const TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
   const fs::path file_ = folder_ / "file";
   std::atomic<double> now_ = 1000;
   Lease lease_{file_, [this] { return now_.load(); }};
@@ -56,7 +56,7 @@ TEST_F(LeaseOfAFile, WhoWasStoppedForLongLearnsThatItIsGone) {
 }
 
 TEST(Lease, OnceItCanBeRenewedAgainAllIsWell) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::create_directory(folder / "below");
   document::create_file(folder / "below/file", "");
   std::atomic<double> now = 1000;

@@ -10,7 +10,7 @@
 #include "host/render/sinks/frame_folder.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 // Of a run that renders `rendered` where the others of the small film are already.
 void expect_lost(const std::vector<std::uint32_t>& rendered, const std::vector<std::uint32_t>& lost) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::vector<std::uint32_t> there = small_manifest().frames;
   std::erase_if(there, [&](std::uint32_t frame) { return std::ranges::count(rendered, frame) > 0; });
   {
@@ -47,7 +47,7 @@ TEST(LostFrames, AreAFailureAtTheEnd) { expect_lost({0, 1, 2, 5}, {1}); }
 TEST(LostFrames, AreAlsoThoseThatWereThereBefore) { expect_lost({2, 5}, {0, 2, 11}); }
 
 TEST(LostFrames, WithTheFolderOfClaimsTheRunEnds) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), small_manifest());
   put_frames(frames, of_frames({0, 1}), 7);
   fs::remove_all(folder / std::string(kRunsName));

@@ -16,7 +16,7 @@
 #include "host/render/sinks/verify.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -37,7 +37,7 @@ void spoil(const fs::path& file, int how) {
 }
 
 TEST(Restore, AManifestWhoseBitsChangeIsNoticed) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   const std::string text = document::read_file(folder / kManifestName);
   const Manifest sound = *read_frames_json(folder.path());
@@ -53,7 +53,7 @@ TEST(Restore, AManifestWhoseBitsChangeIsNoticed) {
 
 TEST(Restore, ARunThatFinishesMendsTheManifest) {
   for (int how = 0; how < 4; ++how) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     fill(folder.path(), of_frames({0, 1}), 7);
     std::string said;
     FrameFolder frames(folder.path(), of_frames({2, 5}), this_process(),
@@ -71,7 +71,7 @@ TEST(Restore, ARunThatFinishesMendsTheManifest) {
 }
 
 TEST(Restore, ARunThatBeginsMendsTheManifestWhileAnotherGoesOn) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), of_frames({0}), 7);
   FrameFolder other(folder.path(), of_frames({1, 2}));
   put_frames(other, of_frames({1}), 7);
@@ -84,7 +84,7 @@ TEST(Restore, ARunThatBeginsMendsTheManifestWhileAnotherGoesOn) {
 }
 
 TEST(Restore, WhatAKilledRunLeftIsAddedToAManifestThatIsLost) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), of_frames({0, 1}), 7);
   ProcessName ended = this_process();
   ended.number = 0x3fffffff;  // no process has it
@@ -104,7 +104,7 @@ TEST(Restore, WhatAKilledRunLeftIsAddedToAManifestThatIsLost) {
 TEST(Restore, RepairGivesTheSameHashInEveryFormat) {
   for (const PictureFormat format : {PictureFormat::png, PictureFormat::png16, PictureFormat::exr,
                                      PictureFormat::png_alpha, PictureFormat::png16_alpha, PictureFormat::exr_alpha}) {
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     fill(folder.path(), in_format(format), 0x2030);
     const std::string hash = verify_folder(folder.path()).hash;
     EXPECT_EQ(repair_manifest(folder.path()), "") << "it is sound";
@@ -121,7 +121,7 @@ TEST(Restore, RepairGivesTheSameHashInEveryFormat) {
 
 // Programs that compose frames would put them elsewhere, and show them in another shape.
 TEST(Restore, RepairFindsWhichPartOfThePictureFramesAre) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = in_format(PictureFormat::exr);
   manifest.place = {{-3, 1, 40, 30}, 2};
   fill(folder.path(), manifest, 7);
@@ -145,10 +145,10 @@ TEST(Restore, RepairFindsFramesOfEveryName) {
     Manifest manifest = in_format(PictureFormat::exr);
     manifest.names = names;
     manifest.compression = images::Compression::piz;
-    const TemporaryFolder folder;
+    const test::TemporaryFolder folder;
     fill(folder.path(), manifest, 0x2030);
     document::write_whole_file(folder / "texture.png", std::string_view("of somebody else"));
-    const TemporaryFolder another;
+    const test::TemporaryFolder another;
     fill(another.path(), in_format(PictureFormat::png), 7);
     fs::copy_file(another / "frame-0005.png", folder / "best.png");
     const std::string hash = verify_folder(folder.path()).hash;
@@ -164,7 +164,7 @@ TEST(Restore, RepairFindsFramesOfEveryName) {
 }
 
 TEST(Restore, FilesSayWhichFrameTheyAre) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   fs::copy_file(folder / "frame-0000.png", folder / "frame-0001.png", fs::copy_options::overwrite_existing);
   fs::copy_file(folder / "frame-0000.png", folder / "frame-0003.png");
@@ -181,7 +181,7 @@ TEST(Restore, FilesSayWhichFrameTheyAre) {
 
 // A repair does not call a folder whole where such files are.
 TEST(Restore, FilesThatAreEmptyAreToBeRenderedAgain) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   fs::resize_file(folder / "frame-0002.png", 0);
   spoil(folder / kManifestName, 3);
@@ -193,7 +193,7 @@ TEST(Restore, FilesThatAreEmptyAreToBeRenderedAgain) {
 }
 
 TEST(Restore, FramesOfTwoFilmsAreNotTakenForOnes) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   Manifest other = of_frames({1});
   other.checksum = std::string(32, 'b');
@@ -205,7 +205,7 @@ TEST(Restore, FramesOfTwoFilmsAreNotTakenForOnes) {
 }
 
 TEST(Restore, WhereARunRendersNothingIsRepaired) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const FrameFolder running(folder.path(), small_manifest());
   spoil(folder / kManifestName, 0);
   EXPECT_TRUE(
@@ -225,7 +225,7 @@ TEST(Restore, FoldersOfOlderVersionsAreRead) {
 
 // Its frames' hashes are over all pixels at once, and stay so beside those of bands.
 TEST(Restore, FramesOfVersion2StayWithTheirHashes) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::copy(kOlder / "version-2", folder / "out");
   const Verdict before = verify_folder(folder / "out");
   EXPECT_EQ(before.troubles.size(), 0u);
@@ -248,7 +248,7 @@ TEST(Restore, FramesOfVersion2StayWithTheirHashes) {
 
 // No run may decide of which film they are.
 TEST(Restore, FramesThatSayNothingAreLeftAlone) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fs::copy(kOlder / "version-1", folder / "out");
   spoil(folder / "out/frames.json", 0);
   const std::string failure = document::failure_of([&] { FrameFolder(folder / "out", small_manifest()); });
@@ -258,7 +258,7 @@ TEST(Restore, FramesThatSayNothingAreLeftAlone) {
 }
 
 TEST(Restore, KeysOfLaterProgramsAreKept) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest manifest = small_manifest();
   manifest.more = R"({"lenses":["beauty",3]})";
   fill(folder.path(), manifest, 7);
@@ -287,7 +287,7 @@ TEST(Restore, LayersAreOfExrFilesAndOfThisVersion) {
 }
 
 TEST(Restore, ALaterVersionIsRefusedAndNotMended) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   auto text = nlohmann::json::parse(document::read_file(folder / kManifestName));
   text["version"] = kManifestVersion + 1;
@@ -302,7 +302,7 @@ TEST(Restore, ALaterVersionIsRefusedAndNotMended) {
 }
 
 TEST(Restore, FramesOfAnotherPixelVersionAreOfAnotherFolder) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Manifest before = of_frames({0, 1});
   before.pixel_version = wire::kFirstPixelVersion;
   fill(folder.path(), before, 7);

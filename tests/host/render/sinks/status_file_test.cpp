@@ -6,7 +6,7 @@
 
 #include "host/content/document/file.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -20,7 +20,7 @@ bool soon(const Holds& holds) {
 }
 
 TEST(StatusFile, IsWrittenAtOnceAgainAndAtTheEnd) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto file = folder / "run.status";
   std::atomic<int> number = 1;
   const auto text = [&] { return document::read_file_if_there(file, 100).value_or(""); };
@@ -42,7 +42,7 @@ TEST(StatusFile, IsWrittenAtOnceAgainAndAtTheEnd) {
 }
 
 TEST(StatusFile, IsLeftOutWhereItCannotBeWritten) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const StatusFile nowhere(folder / "none/run.status", folder / "none/run.status.part", [] { return "1"; });
   const StatusFile failing(folder / "run.status", folder / "run.status.part",
                            []() -> std::string { throw std::runtime_error("no text"); });
@@ -51,7 +51,7 @@ TEST(StatusFile, IsLeftOutWhereItCannotBeWritten) {
 }
 
 TEST(StatusFile, OfAFolderIsGoneWithItsRun) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), small_manifest());
   frames.show_status([] { return "1"; });
   const auto has_status = [&] {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/content/document/whole_file.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -26,7 +26,7 @@ Status some_status() {
 }
 
 std::optional<Status> read_again(const std::string& text) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   document::create_file(folder / "run.status", text);
   return status_of(RunFiles{"run", {folder / "run.status"}});
 }

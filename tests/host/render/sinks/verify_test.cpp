@@ -13,7 +13,7 @@
 #include "host/images/picture_file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::sinks {
 namespace {
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using images::PictureFormat;
 
 TEST(Verify, OneHashForEqualFrames) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Manifest manifest = small_manifest();
   std::vector<std::string> hashes;
   for (const auto& [name, color] : {std::pair{"a", 0x102030u}, {"b", 0x102030u}, {"c", 0x102031u}}) {
@@ -38,7 +38,7 @@ TEST(Verify, OneHashForEqualFrames) {
 }
 
 TEST(Verify, ReadsEveryFormatAndNamesItsPixels) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   std::set<std::string> hashes;
   for (const auto& [format, pixels] : {std::pair{PictureFormat::png, "8-bit sRGB"},
                                        {PictureFormat::png16, "16-bit sRGB"},
@@ -57,7 +57,7 @@ TEST(Verify, ReadsEveryFormatAndNamesItsPixels) {
 }
 
 TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const Manifest manifest = small_manifest();
   fill(folder.path(), manifest, 0);
   fs::remove(folder / "frame-0001.png");
@@ -77,7 +77,7 @@ TEST(Verify, TellsEveryFrameThatIsNotAsItShouldBe) {
 }
 
 TEST(Verify, FramesThatAreNoFilesAreNamedAndTheOthersLookedAt) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   for (const char* name : {"frame-0000.png", "frame-0001.png", "frame-0002.png", "frame-0005.png"})
     fs::remove(folder / name);
@@ -94,7 +94,7 @@ TEST(Verify, FramesThatAreNoFilesAreNamedAndTheOthersLookedAt) {
 }
 
 TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   { const FrameFolder unfinished(folder.path(), of_frames({1})); }
   document::write_whole_file(folder / "frame-0001.png",
                              images::encode_picture(images::PictureFormat::png, 6, 4, std::vector<std::uint32_t>(24)));
@@ -104,7 +104,7 @@ TEST(Verify, AFrameOfWhichNothingIsRecordedDoesNotPass) {
 }
 
 TEST(Verify, RemovesWhatIsStillWrongAndNothingBesideARun) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), of_frames({1, 2}), 7);
   for (const char* name : {"frame-0001.png", "frame-0002.png"}) document::write_whole_file(folder / name, "torn");
   const Verdict verdict = verify_folder(folder.path());
@@ -123,7 +123,7 @@ TEST(Verify, RemovesWhatIsStillWrongAndNothingBesideARun) {
 }
 
 TEST(Verify, ManifestsWithoutHashesAreReadToo) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   fill(folder.path(), small_manifest(), 7);
   const std::string hash = verify_folder(folder.path()).hash;
   document::write_whole_file(

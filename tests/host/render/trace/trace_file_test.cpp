@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/render/trace/timeline.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::trace {
 namespace {
@@ -40,7 +40,7 @@ Trace small_trace(std::size_t most = 100) {
 }
 
 json written(const Trace& trace) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   write_trace(folder / "trace.json", {"a film", "threads"}, trace);
   std::ifstream file(folder / "trace.json");
   return json::parse(file);

@@ -4,7 +4,7 @@
 
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::batch {
 namespace {
@@ -76,7 +76,7 @@ TEST(FolderState, TakesARunThatSaysNothingForLost) {
 }
 
 TEST(FolderState, IsOfWhatIsInTheFolder) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_TRUE(document::holds(document::failure_of([&] { look_at(folder.path()); }), "no folder of frames"));
   {
     sinks::FrameFolder frames(folder.path(), sinks::small_manifest());

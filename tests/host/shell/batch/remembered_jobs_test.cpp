@@ -5,7 +5,7 @@
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::batch {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 using Numbers = std::vector<std::string>;
 
 TEST(RememberedJobs, AreThoseThatWereAdded) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RememberedJobs jobs(folder / "out");
   EXPECT_EQ(jobs.numbers(), Numbers{});
   EXPECT_EQ(document::read_file(jobs.write_script("sleep 1\n")), "sleep 1\n");
@@ -23,7 +23,7 @@ TEST(RememberedJobs, AreThoseThatWereAdded) {
 }
 
 TEST(RememberedJobs, AreRefusedWhereTheFileIsDamaged) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const RememberedJobs jobs(folder.path());
   jobs.write_script("");
   for (const char* text : {"{", "{}", R"({"jobs": [{"job": 12}]})", R"({"jobs": [{"job": "12; rm"}]})"}) {

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::launch {
 namespace {
@@ -39,7 +39,7 @@ Surroundings batch_job(std::uint32_t tasks) {
   return {2, 2, tasks, false, false, false, {}, 0, child::Environment({})};
 }
 
-fs::path write_hostfile(const sinks::TemporaryFolder& folder, const std::string& text) {
+fs::path write_hostfile(const test::TemporaryFolder& folder, const std::string& text) {
   std::ofstream(folder / "hosts") << text;
   return folder / "hosts";
 }
@@ -93,7 +93,7 @@ TEST(Command, WhatAPersonSetOfMpiCounts) {
 }
 
 TEST(Command, NamesOfFilesAreNoWordsForMpirun) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const fs::path before = fs::current_path();
   fs::current_path(folder / "");
   std::ofstream(":") << "n1\n";
@@ -117,7 +117,7 @@ TEST(Command, NoMpiWithinTooFewAddresses) {
 }
 
 TEST(Command, AHostfileIsPassedOn) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   options::RenderOptions options = film(7);
   options.hostfile = write_hostfile(folder, "n1 slots=2\nn2\n").string();
   const std::string text = shell_text(mpi_command(options, all_programs(), alone(8)));
@@ -126,7 +126,7 @@ TEST(Command, AHostfileIsPassedOn) {
 }
 
 TEST(Command, MpichHasWordsOfItsOwn) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   Programs programs = all_programs();
   programs.mpi = Mpi::mpich;
   options::RenderOptions options = film(7);
@@ -150,7 +150,7 @@ TEST(Command, SlurmsTasksAreCounted) {
 }
 
 TEST(Command, NodesFillWhatThereIs) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   options::RenderOptions options;
   options.backend = options::Backend::mpi;
   EXPECT_EQ(default_nodes(options, alone(4)), 8u) << "a node a processor";
@@ -164,7 +164,7 @@ TEST(Command, NodesFillWhatThereIs) {
 }
 
 TEST(Command, AWrongHostfileIsRefusedBeforeMpirunSeesIt) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   options::RenderOptions options = film(7);
   options.hostfile = write_hostfile(folder, "n1\nn2 slots=many\n").string();
   const auto starts = [&] { mpi_command(options, all_programs(), alone(8)); };
@@ -172,7 +172,7 @@ TEST(Command, AWrongHostfileIsRefusedBeforeMpirunSeesIt) {
 }
 
 TEST(Command, SlotsStandForTheCoresOfOtherMachines) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   options::RenderOptions options;
   options.backend = options::Backend::mpi;
   EXPECT_EQ(cores_in_use(options, alone(4)), 4u);
@@ -204,7 +204,7 @@ TEST(Command, AnyWordCanBePasted) {
 }
 
 TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   make_program(folder / "bin/mars-host");
   make_program(folder / "libexec/mars-node");
   make_program(folder / "path/mars-threads");
@@ -220,7 +220,7 @@ TEST(Command, ProgramsAreBesideUsOrInLibexecOrInThePath) {
 }
 
 TEST(Command, MpirunIsThatOfOurMpi) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* name :
        {"module/mpirun", "usr/mpirun", "usr/mpirun.openmpi", "usr/mpirun.mpich", "usr/mpiexec.hydra"})
     make_program(folder / name);

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::launch {
 namespace {
@@ -16,7 +16,7 @@ std::string failure(const std::filesystem::path& film) {
 }
 
 TEST(FilmCheck, NamesWhatIsNoFilm) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const auto write = [&](const char* name, const std::string& text) {
     std::ofstream(folder / name) << text;
     return folder / name;

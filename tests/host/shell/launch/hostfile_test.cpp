@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::launch {
 namespace {
@@ -28,7 +28,7 @@ class Hostfile : public testing::Test {
     return document::failure_of([&] { read(text); });
   }
 
-  const sinks::TemporaryFolder folder_;
+  const test::TemporaryFolder folder_;
 };
 
 // What mpirun of Open MPI 4.1.4 took, each tried with it.

@@ -17,11 +17,12 @@
 #include <chrono>
 #include <fstream>
 #include <optional>
+#include <random>
 #include <string>
 #include <thread>
 
 #include "host/content/document/text.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::launch {
 namespace {
@@ -51,7 +52,7 @@ class SessionFoldersTest : public testing::Test {
 
   bool base_is_empty() const { return fs::is_empty(base_.path()); }
 
-  const sinks::TemporaryFolder base_;
+  const test::TemporaryFolder base_;
 };
 
 TEST_F(SessionFoldersTest, ArePartOfTheCommandAndGo) {
@@ -76,7 +77,7 @@ TEST_F(SessionFoldersTest, OnSeveralMachinesThereAreNoneAndWhatAKilledMpirunLeft
     std::ofstream(fs::path("/dev/shm") / name) << "shared";
     return fs::path("/dev/shm") / name;
   };
-  const unsigned job = 0xffff0000u ^ static_cast<unsigned>(getpid()) << 16;
+  const unsigned job = std::random_device()() << 2;  // no other test's, which would be in the same folder
   const fs::path its = segment(job + 1), others = segment(job + 2);
   const fs::path sessions = base_.path() / "ompi.here.0";
   for (const char* of : {"pid.7", "pid.8"}) fs::create_directories(sessions / of);

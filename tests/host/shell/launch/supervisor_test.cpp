@@ -9,7 +9,7 @@
 
 #include "host/content/document/whole_file.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::launch {
 namespace {
@@ -160,7 +160,7 @@ TEST_F(SupervisorOf, AJobThatIsKilledBeforeItBeginsIsStartedAgain) {
 
 // The next job would compile the edit, and nothing would say so.
 TEST_F(SupervisorOf, AFilmEditedBeforeAnyJobHasCompiledItIsNotStartedAgain) {
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   options_.film = (folder / "film.json").string();
   document::write_whole_file(options_.film, "{}");
   Remains killed_early = never_began();

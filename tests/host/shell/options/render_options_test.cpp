@@ -4,7 +4,7 @@
 
 #include "host/cli/program.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::options {
 namespace {
@@ -310,7 +310,7 @@ TEST(RenderOptions, FoldersHaveNoNamesOfOtherVideosAndPictures) {
     EXPECT_TRUE(document::holds(refusal({"film.json", "-o", name}), "frames are files of their own (give -o x"))
         << name;
   EXPECT_TRUE(document::holds(refusal({"film.json", "-o", "x.avi"}), "(videos are .mp4, .m4v, .mov"));
-  const sinks::TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   const std::string there = folder / "x.mp4";
   std::filesystem::create_directory(there);
   EXPECT_EQ(read(Program::mars, {"film.json", "-o", there}).options.folder, there)

@@ -20,6 +20,7 @@
 #include "host/studio/importing/upload_folder.h"
 #include "tests/host/studio/fakes.h"
 #include "tests/sanitizers/sanitized.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::studio {
 namespace {
@@ -68,10 +69,6 @@ class ImportingTest : public testing::Test {
     std::ofstream(folder_ / "mars") << kMars;
     fs::permissions(folder_ / "mars", fs::perms::owner_all);
     make({folder_ / "films/play.json", folder_ / "mars"});
-  }
-  ~ImportingTest() override {
-    importing_.reset();
-    fs::remove_all(folder_);
   }
 
   void make(const ImportingSettings& settings) {
@@ -162,7 +159,7 @@ class ImportingTest : public testing::Test {
 
   using Names = std::vector<std::string>;
 
-  const fs::path folder_ = fs::temp_directory_path() / ("mars-importing-" + std::to_string(getpid()));
+  const test::TemporaryFolder folder_;
   boost::asio::io_context context_;
   // Without it, a context that waits for another thread's work alone would stop for good.
   const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> kept_{context_.get_executor()};

@@ -16,6 +16,7 @@
 
 #include "hal/failure/failure.h"
 #include "tests/sanitizers/sanitized.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::studio {
 namespace {
@@ -45,10 +46,6 @@ class ThumbnailsTest : public testing::Test {
                                     pages_.push_back(page);
                                     messages_.push_back(message);
                                   }});
-  }
-  ~ThumbnailsTest() override {
-    thumbnails_.reset();
-    fs::remove_all(folder_);
   }
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / "films" / name) << text; }
@@ -84,7 +81,7 @@ class ThumbnailsTest : public testing::Test {
 
   using Names = std::vector<std::string>;
 
-  const fs::path folder_ = fs::temp_directory_path() / ("mars-thumbnails-test-" + std::to_string(getpid()));
+  const test::TemporaryFolder folder_;
   boost::asio::io_context context_;
   std::vector<PageNumber> pages_;
   std::vector<Json> messages_;

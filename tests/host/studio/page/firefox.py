@@ -2,21 +2,23 @@
 
 import json
 import pathlib
-import shutil
 import socket
 import subprocess
 import tempfile
 import time
 
-PATIENCE = 60  # seconds until it is there
-SETTINGS = {"marionette.port": 0, "datareporting.policy.dataSubmissionEnabled": False, "app.normandy.enabled": False,
+from settled import PATIENCE
+
+# Letters that somebody types into a list belong to one word, however slow the machine is.
+SETTINGS = {"marionette.port": 0, "ui.menu.incremental_search.timeout": 60000, "datareporting.policy.dataSubmissionEnabled": False, "app.normandy.enabled": False,
             "browser.startup.homepage_override.mstone": "ignore", "ui.systemUsesDarkTheme": 1}
 KEYS = {"Enter": "\ue007", "Escape": "\ue00c", "ArrowDown": "\ue015", "ArrowRight": "\ue014", "Control": "\ue009"}
 
 
 class Firefox:
     def __init__(self, program, width, height):
-        self.profile = pathlib.Path(tempfile.mkdtemp(prefix="firefox"))
+        self.folder = tempfile.TemporaryDirectory(prefix="mars-test-", ignore_cleanup_errors=True)
+        self.profile = pathlib.Path(self.folder.name)
         lines = (f"user_pref({json.dumps(name)}, {json.dumps(value)});\n" for name, value in SETTINGS.items())
         (self.profile / "user.js").write_text("".join(lines))
         self.process = subprocess.Popen([program, "--headless", "--no-remote", "--marionette", "--profile", self.profile,
@@ -26,6 +28,7 @@ class Firefox:
         self.number = 0
         self.read()
         self.command("WebDriver:NewSession")
+        self.command("WebDriver:SetTimeouts", script=2000 * PATIENCE)
 
     def port(self):
         file, end = self.profile / "MarionetteActivePort", time.monotonic() + PATIENCE
@@ -39,7 +42,7 @@ class Firefox:
         self.socket.close()
         self.process.terminate()
         self.process.wait(PATIENCE)
-        shutil.rmtree(self.profile, ignore_errors=True)
+        self.folder.cleanup()
 
     # Messages: a length, a colon, and as many bytes of JSON.
 

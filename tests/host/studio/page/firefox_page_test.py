@@ -10,12 +10,12 @@ import projects
 from channels import channels
 from firefox import Firefox
 from mock_studio import DEFLATE, JPEG, RAW, MockStudio
+from settled import PATIENCE
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3]))
 from cases import main  # noqa: E402
 
 PROGRAM = sys.argv[1]
-PATIENCE = 10  # seconds
 
 
 class Page(unittest.TestCase):
@@ -34,16 +34,31 @@ class Page(unittest.TestCase):
         self.addCleanup(self.studio.stop)
         self.browser.open(self.studio.link)
         for view in range(4):
-            self.studio.wait_for("painted", view=view, seconds=PATIENCE)
+            self.studio.wait_for("painted", view=view)
         self.browser.js("window.errors = []; addEventListener('error', ({message}) => window.errors.push(message))")
+        self.addCleanup(self.browser.js, "window.hand.leave()")
         self.addCleanup(lambda: self.assertEqual(self.browser.js("return window.errors"), []))
 
+    def at(self, css):
+        """Where the mouse finds it on a page that is settled, and that stands still until let_go()."""
+        return self.browser.js("const {x, y} = await window.hand.take(arguments[0], null, arguments[1]); return [x, y];", css, 1000 * PATIENCE)
+
+    def let_go(self):
+        self.browser.js("window.hand.release()")
+
+    def click(self, css):
+        self.browser.click(self.at(css))
+        self.let_go()
+
     def center(self, css):
-        return self.browser.js("""
-            const it = document.querySelector(arguments[0]);
-            it.scrollIntoView({block: "nearest"});
-            const at = it.getBoundingClientRect();
-            return [at.x + at.width / 2, at.y + at.height / 2];""", css)
+        place = self.at(css)
+        self.let_go()
+        return place
+
+    def press(self, *keys):
+        self.browser.js("await window.hand.hold()")
+        self.browser.press(*keys)
+        self.let_go()
 
     def until(self, text, wanted=True):
         end = time.monotonic() + PATIENCE
@@ -98,43 +113,43 @@ class Page(unittest.TestCase):
         grab = self.studio.wait_for("grab", view=0, button=0)
         self.studio.wait_for("drag", x=grab["x"] + 50, y=grab["y"] + 15)
         self.studio.wait_for("drop")
-        self.browser.press("z")
+        self.press("z")
         self.studio.wait_for("orbit", how="selected")
-        self.browser.press("Control+z")
+        self.press("Control+z")
         self.studio.wait_for("undo")
 
     def test_fields_and_menus(self):
         self.show(projects.model())
-        self.browser.click(self.center('[data-key="model/left-thigh"] .name'))
+        self.click('[data-key="model/left-thigh"] .name')
         self.studio.wait_for("select", joint="left-thigh")
-        self.browser.press("ArrowDown")
+        self.press("ArrowDown")
         self.studio.wait_for("select", joint="left-shin")
         x, y = self.center('[data-key="pose.y"]')
         self.browser.drag((x - 40, y), (x, y))
         self.studio.wait_for("preview")
         self.assertGreater(self.step()["pose"]["left-shin"][1], 50)
-        self.browser.click(self.center('[data-key="pose.y.number"]'))
-        self.browser.press("4", "5", "Enter")
+        self.click('[data-key="pose.y.number"]')
+        self.press("4", "5", "Enter")
         self.assertEqual(self.step()["pose"]["left-shin"][1], 45)
         self.browser.js("document.querySelector('[data-key=shape]').focus()")
-        self.browser.press("c", "a", "p")
+        self.press("c", "a", "p")
         self.assertEqual(self.step(), {"commands": [["model", "set", "left-shin", "--shape", "capsule"]]})
-        self.browser.click(self.center(".title"))
-        self.browser.press("p", "Enter")
+        self.click(".title")
+        self.press("p", "Enter")
         self.studio.wait_for("view", view=0, **{"as": "prisms"})
-        self.browser.press("?")
+        self.press("?")
         self.until("document.querySelector('dialog.help')?.open")
-        self.browser.press("Escape")
+        self.press("Escape")
         self.until("document.querySelector('dialog.help').open", False)
 
     def test_a_film(self):
         self.show(projects.film(), channels())
-        self.browser.click(self.center('[data-key="watcher"] .name'))
+        self.click('[data-key="watcher"] .name')
         self.until("document.querySelector('[data-key=\"actor.attach\"]')?.length", 1)
-        self.browser.click(self.center('[data-key="actor.attach"]'))
-        self.browser.press(*"walker \u203a h", "Enter")
+        self.click('[data-key="actor.attach"]')
+        self.press(*"walker \u203a h", "Enter")
         self.assertEqual(self.step()["commands"][0][:5], ["animate", "attach", "watcher", "--to", "walker/head"])
-        self.browser.click(self.center("[data-row=walker] .twist"))
+        self.click("[data-row=walker] .twist")
         self.until("document.querySelector('[data-row=\"walker left-shin\"]') !== null")
         left, width = self.browser.js("const at = document.querySelector('.ruler').getBoundingClientRect(); return [at.x, at.width]")
         x = lambda frame: left + 18 + frame * (width - 36) / (self.studio.project["frames"] - 1)  # noqa: E731
@@ -143,12 +158,12 @@ class Page(unittest.TestCase):
         self.assertEqual(self.step(), {"commands": [["animate", "move", "walker", "left-shin", "--frame", "20", "--to", "24"]]})
         self.browser.click((x(60), self.center(".ruler")[1]))
         self.studio.wait_for("frame", frame=60)
-        self.browser.click(self.center('[data-row="walker left-shin"] .name'))
-        self.browser.press("k")
+        self.click('[data-row="walker left-shin"] .name')
+        self.press("k")
         self.studio.wait_for("curves", thing="walker", parts=["left-shin"])
-        self.browser.press(" ")
+        self.press(" ")
         self.studio.wait_for("frame", count=4)
-        self.browser.press(" ")
+        self.press(" ")
 
 
 if __name__ == "__main__":

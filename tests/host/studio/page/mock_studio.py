@@ -13,6 +13,9 @@ import urllib.parse
 import zlib
 
 import websockets
+from websockets.connection import State
+
+import settled
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
 PAGE = ROOT / "host/studio/page"
@@ -20,6 +23,7 @@ POLICY = "default-src 'self'"
 TOKEN = "open-sesame"
 RAW, DEFLATE, JPEG = 0, 1, 2
 MOST_UNPAINTED = 2
+FIRST_SCRIPT, SETTLED = b'<script type="module"', b'<script src="settled.js"></script>'
 ANSWERED_BY_PICTURES = ("orbit", "preview", "drag", "frame", "commit", "drop")
 
 
@@ -35,6 +39,8 @@ def plain(width, height, color):
 
 
 class MockStudio:
+    port = 0  # one for all: then the browser keeps the page's files from one test to the next
+
     def __init__(self, project, draw=None, token=TOKEN):
         self.project = project
         self.token = token
@@ -47,23 +53,26 @@ class MockStudio:
         self.numbers = {}  # view -> its last picture
         self.painted = {}  # view -> the last that the page has painted
         self.due = {}      # view -> the edit of a picture for which there was no room
-        self.sockets = set()
+        self.page = None  # its socket
         self.news = threading.Condition()
         self.loop = asyncio.new_event_loop()
 
     # A test's side.
 
-    def start(self, port=0):
+    def start(self):
         started = threading.Event()
-        threading.Thread(target=self._run, args=(port, started), daemon=True).start()
-        started.wait(5)
+        threading.Thread(target=self._run, args=(started,), daemon=True).start()
+        started.wait(settled.PATIENCE)
         return self
 
     def stop(self):
         async def end():
             self.server.close()
+            for idle in [each for each in self.server.websockets if each.state is State.CONNECTING]:
+                idle.handler_task.cancel()  # a browser opens connections for which it has no use yet
+                idle.transport.abort()
             await self.server.wait_closed()
-        asyncio.run_coroutine_threadsafe(end(), self.loop).result(5)
+        asyncio.run_coroutine_threadsafe(end(), self.loop).result(settled.PATIENCE)
         self.loop.call_soon_threadsafe(self.loop.stop)
 
     @property
@@ -74,17 +83,17 @@ class MockStudio:
         with self.news:
             self.heard.clear()
 
-    def wait_for(self, does, count=1, seconds=5, **parts):
+    def wait_for(self, does, count=1, **parts):
         """The first messages that do this and have these parts; fails where they do not come."""
         def found():
             return [each for each in self.heard if each.get("do") == does and parts.items() <= each.items()]
         with self.news:
-            if not self.news.wait_for(lambda: len(found()) >= count, seconds):
+            if not self.news.wait_for(lambda: len(found()) >= count, settled.PATIENCE):
                 raise AssertionError(f"no message {does} with {parts} among {self.heard[-12:]}")
             return found()[-1]
 
     def tell(self, message):
-        asyncio.run_coroutine_threadsafe(self._tell(message), self.loop).result(5)
+        asyncio.run_coroutine_threadsafe(self._tell(message), self.loop).result(settled.PATIENCE)
 
     # Rectangles of a view, whose picture they follow.
     def show(self, view, rects, pixels, edit=0, encoding=RAW, size=None):
@@ -95,12 +104,12 @@ class MockStudio:
 
     # A studio's side.
 
-    def _run(self, port, started):
+    def _run(self, started):
         asyncio.set_event_loop(self.loop)
 
         async def serve():
-            self.server = await websockets.serve(self._page, "127.0.0.1", port, process_request=self._file, compression=None)
-            self.port = self.server.sockets[0].getsockname()[1]
+            self.server = await websockets.serve(self._page, "127.0.0.1", self.port, process_request=self._file, compression=None)
+            MockStudio.port = self.server.sockets[0].getsockname()[1]
             started.set()
 
         self.loop.run_until_complete(serve())
@@ -112,16 +121,20 @@ class MockStudio:
         if address.path == "/ws":
             right = urllib.parse.parse_qs(address.query).get("token") == [self.token]
             return None if right else (http.HTTPStatus.FORBIDDEN, [], b"")
+        if address.path == "/settled.js":
+            return http.HTTPStatus.OK, [("Content-Type", "text/javascript"), ("Cache-Control", "max-age=3600")], settled.SCRIPT.encode()
         file = (PAGE / address.path.lstrip("/")).resolve()
         file = file / "index.html" if file == PAGE else file
         if PAGE not in file.parents or not file.is_file():
             return http.HTTPStatus.NOT_FOUND, [], b""
         kind = "text/javascript" if file.suffix == ".js" else mimetypes.guess_type(file.name)[0]
-        headers = [("Content-Type", kind), ("Content-Security-Policy", POLICY), ("Cache-Control", "no-store")]
-        return http.HTTPStatus.OK, headers, file.read_bytes()
+        headers = [("Content-Type", kind), ("Content-Security-Policy", POLICY), ("Cache-Control", "max-age=3600")]
+        return http.HTTPStatus.OK, headers, file.read_bytes().replace(FIRST_SCRIPT, SETTLED + FIRST_SCRIPT)
 
     async def _page(self, socket):
-        self.sockets.add(socket)
+        if self.page:
+            self.page.transport.abort()  # a page that was loaded again does not read on
+        self.page = socket
         self.views.clear()
         self.numbers.clear()
         self.painted.clear()
@@ -134,10 +147,12 @@ class MockStudio:
         except websockets.ConnectionClosed:
             pass
         finally:
-            self.sockets.discard(socket)
+            self.page = None if self.page is socket else self.page
 
     async def _take(self, message):
         does = message["do"]
+        if does == "settled":  # settled.js, not the page
+            return await self._tell({"is": "refused", "do": does})
         if does == "view":
             self.views[message["view"]] = message
             await self._picture(message["view"], message["edit"])
@@ -193,8 +208,8 @@ class MockStudio:
 
     async def _tell(self, message):
         data = message if isinstance(message, bytes) else json.dumps(message)
-        for socket in list(self.sockets):
-            await socket.send(data)
+        if self.page:
+            await self.page.send(data)
 
 
 def bits(flags):

@@ -12,43 +12,27 @@ import time
 import unittest
 import zlib
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.actions.wheel_input import ScrollOrigin
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 import projects
+from chromium import Chromium
 from mock_studio import DEFLATE, PAGE, MockStudio, bits
+from settled import PATIENCE
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3]))
 from cases import main  # noqa: E402
 
 CHROMEDRIVER = sys.argv[1]
-FLAGS = ("--headless=new", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--disable-gpu")
-SIZE = {"width": 1280, "height": 720, "deviceScaleFactor": 1, "mobile": False}
-PATIENCE = 5  # seconds
-# Rows of the tree that are out of sight are no elements.
-SHOW_IN_TREE = """
-const tree = document.querySelector("#tree [role=tree]");
-for (let top = 0; !document.querySelector(arguments[0]) && top < tree.scrollHeight; top += tree.clientHeight / 2) {
-  tree.scrollTop = top;
-  tree.dispatchEvent(new Event("scroll"));
-}
-"""
+SIZE = (1280, 720)
 
 
 @functools.cache
 def one_browser():
-    options = webdriver.ChromeOptions()
-    for flag in FLAGS:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    browser = webdriver.Chrome(service=Service(CHROMEDRIVER), options=options)
-    unittest.addModuleCleanup(browser.quit)
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE)
+    browser = Chromium(CHROMEDRIVER, *SIZE)
+    unittest.addModuleCleanup(browser.driver.quit)
     return browser
 
 
@@ -72,46 +56,61 @@ class Page(unittest.TestCase):
 
     def setUp(self):
         self.browser = one_browser()
+        self.driver = self.browser.driver
         self.studio = MockStudio(type(self).kind()).start()
         self.scheme("dark")
-        self.browser.get(self.studio.link)
+        self.driver.get(self.studio.link)
         for view in range(4):
             self.studio.wait_for("painted", view=view)
         self.allowed = "willReadFrequently"  # the test's own reading of canvases
 
     def tearDown(self):
-        errors = [entry["message"] for entry in self.browser.get_log("browser")]
-        self.js("localStorage.clear(); sessionStorage.clear()")
-        self.browser.get("about:blank")
+        errors = [entry["message"] for entry in self.driver.get_log("browser")]
+        self.js("localStorage.clear(); sessionStorage.clear(); window.hand.leave()")
         self.studio.stop()
         self.assertEqual([error for error in errors if self.allowed not in error], [])
 
     # Small words for what tests do.
 
     def find(self, css):
-        return self.browser.find_element(By.CSS_SELECTOR, css)
+        """An element of a settled page, to read."""
+        self.browser.settle()
+        return self.driver.find_element(By.CSS_SELECTOR, css)
+
+    def find_all(self, css):
+        self.browser.settle()
+        return self.driver.find_elements(By.CSS_SELECTOR, css)
 
     def js(self, text, *arguments):
-        return self.browser.execute_script(text, *arguments)
+        return self.browser.run(text, *arguments)
+
+    def click(self, css, text=None, **how):
+        self.browser.click_on(css, text, **how)
+
+    def type(self, css, *keys):
+        with self.browser.on(css) as (element, _):
+            element.send_keys(*keys)
 
     def press(self, *keys):
-        self.browser.switch_to.active_element.send_keys(*keys)
+        with self.browser.still():
+            self.driver.switch_to.active_element.send_keys(*keys)
 
     @contextlib.contextmanager
     def held(self, *modifiers):
         for each in modifiers:
-            ActionChains(self.browser).key_down(each).perform()
+            ActionChains(self.driver).key_down(each).perform()
         yield
         for each in modifiers:
-            ActionChains(self.browser).key_up(each).perform()
+            ActionChains(self.driver).key_up(each).perform()
 
     def chord(self, *keys):
-        chain = ActionChains(self.browser)
+        chain = ActionChains(self.driver)
         for key in keys:
             chain = chain.key_down(key)
         for key in reversed(keys):
             chain = chain.key_up(key)
-        chain.perform()
+        with self.browser.still():
+            chain.perform()
 
     def until(self, what, wanted=True):
         end = time.monotonic() + PATIENCE
@@ -120,14 +119,16 @@ class Page(unittest.TestCase):
             time.sleep(0.01)
 
     def scheme(self, scheme):
-        features = [{"name": "prefers-color-scheme", "value": scheme}]
-        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+        self.browser.command("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
 
     def select(self, joint):
-        row = f'[data-key$="/{joint}"] > .row'
-        self.js(SHOW_IN_TREE, row)
-        self.js("document.querySelector(arguments[0]).click()", row)
+        self.click(f'[data-key$="/{joint}"] > .row')
         self.studio.wait_for("select", joint=joint)
+
+    def heard(self, what):
+        """The messages that do this, after all that the page sent has come."""
+        self.browser.settle()
+        return [each for each in self.studio.heard if each["do"] == what]
 
     def commit(self, begin):
         """The words of the last command that was committed and begins so."""
@@ -148,14 +149,15 @@ class Page(unittest.TestCase):
             time.sleep(0.01)
 
     def canvas(self, view):
-        return self.browser.find_elements(By.CSS_SELECTOR, ".view canvas")[view]
+        return self.driver.find_elements(By.CSS_SELECTOR, ".view canvas")[view]
 
     def pixels(self, view, x, y, width, height):
         return self.js("return [...arguments[0].getContext('2d').getImageData(...arguments[1]).data]", self.canvas(view),
                        [x, y, width, height])
 
-    def picture(self, view=0):
-        return self.browser.find_elements(By.CSS_SELECTOR, ".picture")[view]
+
+def picture(view=0):
+    return f"[data-key=view-{view}]"
 
 
 class Pictures(Page):
@@ -189,11 +191,13 @@ class Pictures(Page):
 
     def test_latency_is_measured_from_the_event_to_its_paint(self):
         self.js("window.marsLatencies.length = 0")
-        self.picture().click()
-        self.picture().send_keys(Keys.ARROW_LEFT)
+        self.click(picture())
+        began = time.monotonic()
+        self.type(picture(), Keys.ARROW_LEFT)
         orbit = self.studio.wait_for("orbit", view=0, how="turn", moving=True)
         self.until(lambda: self.js("return window.marsLatencies.filter(({edit}) => edit === arguments[0]).length", orbit["edit"]), 4)
-        self.assertTrue(all(0 < each["ms"] < 2000 for each in self.js("return window.marsLatencies")))
+        most = 1000 * (time.monotonic() - began)
+        self.assertTrue(all(0 < each["ms"] < most for each in self.js("return window.marsLatencies") if each["edit"] == orbit["edit"]))
         self.until(lambda: re.search(r"\d+ ms to a picture", self.find("#status").text) is not None)
 
     def test_handles_come_with_their_picture(self):
@@ -210,7 +214,7 @@ class Pictures(Page):
 
 class Hands(Page):
     def drag(self, *moves, view=0, button=0):
-        chain = ActionChains(self.browser, duration=20).move_to_element(self.picture(view)).click_and_hold()
+        chain = ActionChains(self.driver, duration=20).move_to_element(self.find(picture(view))).click_and_hold()
         for right, down in moves:
             chain = chain.move_by_offset(right, down)
         chain.release().perform()
@@ -220,7 +224,7 @@ class Hands(Page):
         self.studio.wait_for("orbit", moving=False)
         moved = [each["by"] for each in self.studio.heard if each["do"] == "orbit"]
         self.assertEqual([sum(way) for way in zip(*moved)], [50, 15])
-        self.assertFalse([each for each in self.studio.heard if each["do"] in ("drag", "drop")])
+        self.assertEqual(self.heard("drag") + self.heard("drop"), [])
 
     def test_a_drag_on_a_limb_pulls_it_and_escape_lets_go(self):
         self.studio.there = lambda grab: {"actor": "model", "joint": "left-thigh", "handle": None}
@@ -231,13 +235,13 @@ class Hands(Page):
         self.assertLess(grab["edit"], drag["edit"])
         self.assertLess(drag["edit"], drop["edit"])
         self.studio.forget()
-        chain = ActionChains(self.browser, duration=20).move_to_element(self.picture()).click_and_hold().move_by_offset(9, 9)
+        chain = ActionChains(self.driver, duration=20).move_to_element(self.find(picture())).click_and_hold().move_by_offset(9, 9)
         chain.send_keys(Keys.ESCAPE).release().perform()
         self.studio.wait_for("let_go")
-        self.assertFalse([each for each in self.studio.heard if each["do"] in ("drop", "commit")])
+        self.assertEqual(self.heard("drop") + self.heard("commit"), [])
 
     def test_wheel_keys_and_buttons_move_the_eye(self):
-        ActionChains(self.browser).scroll_from_origin(ScrollOrigin.from_element(self.picture(3), 20, 10), 0, 120).perform()
+        ActionChains(self.driver).scroll_from_origin(ScrollOrigin.from_element(self.find(picture(3)), 20, 10), 0, 120).perform()
         zoom = self.studio.wait_for("orbit", view=3, how="zoom", moving=True)
         self.assertEqual(zoom["by"], [0, 120])
         self.assertTrue({"x", "y"} <= zoom.keys())
@@ -245,17 +249,17 @@ class Hands(Page):
         with self.held(Keys.SHIFT):
             self.drag((10, 0), view=3)
             self.studio.wait_for("orbit", view=3, how="pan", moving=True)
-            self.picture(3).send_keys(Keys.ARROW_UP)
-        self.picture(3).send_keys("+")
+            self.type(picture(3), Keys.ARROW_UP)
+        self.type(picture(3), "+")
         self.studio.wait_for("orbit", view=3, how="zoom")
         with self.held(Keys.ALT):
             self.drag((10, 0), view=3)
         self.studio.wait_for("orbit", view=3, how="turn")
-        self.assertFalse([each for each in self.studio.heard if each["do"] == "grab"])
+        self.assertEqual(self.heard("grab"), [])
 
     def test_a_click_on_empty_space_selects_nothing(self):
         self.select("head")
-        self.picture().click()
+        self.click(picture())
         self.studio.wait_for("select", actor=None, joint=None)
 
 
@@ -284,7 +288,7 @@ class Controls(Page):
         self.assertTrue(self.find(f"#{current}").is_displayed())
 
     def test_letters_are_shortcuts_after_a_click_in_the_tree(self):
-        self.find('[data-key$="/left-shin"] > .row > .name').click()
+        self.click('[data-key$="/left-shin"] > .row > .name')
         self.studio.wait_for("select", joint="left-shin")
         self.press("s")
         self.studio.wait_for("view", view=0, **{"as": "vertices"})
@@ -295,27 +299,26 @@ class Controls(Page):
         self.select("left-shin")
         slider = self.find('[data-key="pose.y"]')
         limits = [float(slider.get_attribute(end)) for end in ("min", "max")]
-        slider.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        self.type('[data-key="pose.y"]', Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
         self.assertEqual(self.posed("left-shin"), [0, 2, 0])
-        previews = [each["step"]["pose"]["left-shin"][1] for each in self.studio.heard if each["do"] == "preview"]
-        self.assertEqual(previews[-1], 2)
-        self.assertEqual(len([each for each in self.studio.heard if each["do"] == "commit"]), 1)
+        self.assertEqual(self.heard("preview")[-1]["step"]["pose"]["left-shin"][1], 2)
+        self.assertEqual(len(self.heard("commit")), 1)
         self.studio.forget()
-        self.find('[data-key="pose.y"]').send_keys(Keys.END)
+        self.type('[data-key="pose.y"]', Keys.END)
         self.assertEqual(self.posed("left-shin"), [0, limits[1], 0])
         self.studio.forget()
-        self.find('[data-key="pose.y"]').send_keys(Keys.HOME, Keys.ESCAPE)
+        self.type('[data-key="pose.y"]', Keys.HOME, Keys.ESCAPE)
         self.studio.wait_for("cancel")
         self.assertEqual(float(self.find('[data-key="pose.y"]').get_attribute("value")), limits[1])
 
     def test_numbers_are_written_stepped_and_given_up(self):
         self.select("left-thigh")
-        self.find('[data-key="place.y"]').send_keys(Keys.CONTROL, "a", Keys.NULL, "0,5", Keys.ENTER)
+        self.type('[data-key="place.y"]', Keys.CONTROL, "a", Keys.NULL, "0,5", Keys.ENTER)
         self.assertEqual(numbers(self.commit("model set left-thigh"), "--place")[1], 0.5)
         self.studio.forget()
-        self.find('[data-key="place.z"]').send_keys(Keys.ARROW_UP, Keys.ESCAPE)
+        self.type('[data-key="place.z"]', Keys.ARROW_UP, Keys.ESCAPE)
         self.studio.wait_for("cancel")
-        self.find('[data-key="sbb.1.x"]').send_keys(Keys.SHIFT, Keys.ARROW_UP, Keys.NULL, Keys.ENTER)
+        self.type('[data-key="sbb.1.x"]', Keys.SHIFT, Keys.ARROW_UP, Keys.NULL, Keys.ENTER)
         thigh = next(joint for joint in self.studio.project["actors"][0]["joints"] if joint["name"] == "left-thigh")
         changed = numbers(self.commit("model set left-thigh"), "--sbb")
         self.assertAlmostEqual(changed[3], thigh["sbb"][1][0] + 0.2)
@@ -323,10 +326,11 @@ class Controls(Page):
 
     def test_numbers_written_before_the_answer_to_those_before_are_kept(self):
         self.select("left-thigh")  # the stand-in answers with the project as it was: the studio's slowest
+        self.js("performance.now = () => 0")  # nothing that was written waits for too long
         for key, text in (("sbb.0.x", "-0.7"), ("sbb.0.y", "-0.8"), ("sbb.1.x", "0.9"), ("place.x", "0.3"), ("place.y", "0.4")):
-            self.find(f'[data-key="{key}"]').send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.TAB)
-        self.until(lambda: len([each for each in self.studio.heard if each["do"] == "commit"]), 5)
-        steps = [each["step"]["commands"][0] for each in self.studio.heard if each["do"] == "commit"]
+            self.type(f'[data-key="{key}"]', Keys.CONTROL, "a", Keys.NULL, text, Keys.TAB)
+        steps = [each["step"]["commands"][0] for each in self.heard("commit")]
+        self.assertEqual(len(steps), 5)
         box = numbers(steps[2], "--sbb")
         self.assertEqual([box[:2], box[3]], [[-0.7, -0.8], 0.9])
         self.assertEqual(numbers(steps[4], "--place")[:2], [0.3, 0.4])
@@ -344,45 +348,44 @@ class Controls(Page):
         self.until(lambda: "Scene\nadds actors" in shown())
 
     def test_a_double_click_in_the_tree_renames(self):
-        ActionChains(self.browser).double_click(self.find('[data-key$="/left-thigh"] > .row > .name')).perform()
+        self.click('[data-key$="/left-thigh"] > .row > .name', clicks=2)
         self.until(lambda: self.js("return document.activeElement.dataset.key + ' ' + document.activeElement.value"), "name left-thigh")
 
     def test_limits_shapes_materials_and_bodies(self):
         self.select("left-shin")
-        self.js("document.querySelector('[data-key=\"free.x\"]').click()")
+        self.click('[data-key="free.x"]')
         shin = next(joint for joint in self.studio.project["actors"][0]["joints"] if joint["name"] == "left-shin")
         lower, upper = (f"{angle:g}" for angle in shin["limits"][1])
         self.commit(f"model set left-shin --fixed --limits x -180 180 --limits y {lower} {upper}")
-        self.find('[data-key="shape"]').send_keys("cap")
+        self.type('[data-key="shape"]', "cap")
         self.commit("model set left-shin --shape capsule")
-        self.find('[data-key="material"]').send_keys("rub")
+        self.type('[data-key="material"]', "rub")
         self.commit("model set left-shin --material rubber")
-        self.find("[role=tab]:nth-child(2)").click()
+        self.click("[role=tab]:nth-child(2)")
         self.assertEqual(self.find('[role="option"][aria-selected="true"]').text, "trousers")
-        self.find('[data-key="material.diffuse"]').send_keys(Keys.ARROW_RIGHT)
+        self.type('[data-key="material.diffuse"]', Keys.ARROW_RIGHT)
         self.commit("model set --material trousers --diffuse 0.8")
-        self.find('[data-key="material.diffuse.number"]').send_keys(Keys.CONTROL, "a", Keys.NULL, "5", Keys.ENTER)  # the slider ends at 2
+        self.type('[data-key="material.diffuse.number"]', Keys.CONTROL, "a", Keys.NULL, "5", Keys.ENTER)  # the slider ends at 2
         self.commit("model set --material trousers --diffuse 5")
-        self.find('input[type=checkbox][data-key="material.casts"]').click()
+        self.click('input[type=checkbox][data-key="material.casts"]')
         self.commit("model set --material trousers --casts false")
         self.js("""const color = document.querySelector('[data-key="material.color"]');
                    color.value = "#ff0080";
                    color.dispatchEvent(new Event("change", {bubbles: true}));""")
         self.commit("model set --material trousers --color 1 0 0.502")
-        self.find("[role=tab]:nth-child(2)").send_keys(Keys.ARROW_RIGHT)
+        self.type("[role=tab]:nth-child(2)", Keys.ARROW_RIGHT)
 
     def test_a_body_takes_the_models_place_only_where_somebody_agrees(self):
-        self.find("[role=tab]:nth-child(3)").click()
-        body = lambda name: self.js(  # noqa: E731
-            "[...document.querySelectorAll('.panel:not([hidden]) button')].find((each) => each.textContent === arguments[0]).click()", name)
+        self.click("[role=tab]:nth-child(3)")
+        body = lambda name: self.click(f'[data-key="model.{name}"]')  # noqa: E731
         body("child")
         self.assertIn(f"Its {len(self.studio.project['actors'][0]['joints'])} joints go", self.find(".popover").text)
         self.press(Keys.ESCAPE)
-        self.until(lambda: self.browser.find_elements(By.CSS_SELECTOR, ".popover"), [])
+        self.until(lambda: self.find_all(".popover"), [])
         body("tall")
-        self.find('[data-key="ask.yes"]').click()
+        self.click('[data-key="ask.yes"]')
         self.commit("model new --figure tall --replace")
-        self.assertEqual(len([each for each in self.studio.heard if each["do"] == "commit"]), 1)
+        self.assertEqual(len(self.heard("commit")), 1)
         self.studio.forget()
         new = {**self.studio.project["actors"][0], "joints": self.studio.project["actors"][0]["joints"][:1]}
         self.studio.tell({"is": "project", **self.studio.project, "actors": [new], "undo": None})
@@ -398,7 +401,7 @@ class Controls(Page):
         self.assertEqual(self.js("return document.activeElement.dataset.key"), "name")
         self.press(Keys.CONTROL, "a", Keys.NULL, "left-paw", Keys.ENTER)
         self.commit("model set left-hand --name left-paw")
-        self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Left to right').click()")
+        self.click(".actions button", "Left to right")
         self.commit("model mirror left left-hand")
         self.js("document.querySelector('#tree [role=tree]').focus()")
         self.press(Keys.DELETE)
@@ -406,14 +409,14 @@ class Controls(Page):
         self.studio.wait_for("select", joint="left-forearm")
 
     def test_menu_of_a_view_by_keyboard(self):
-        self.find(".title").send_keys(Keys.ENTER)
+        self.type(".title", Keys.ENTER)
         self.assertEqual(self.js("return document.activeElement.textContent"), "Front")
         self.press("p")
         self.assertEqual(self.js("return document.activeElement.textContent"), "Prisms")
         self.press(Keys.ENTER)
         self.studio.wait_for("view", view=0, **{"as": "prisms"})
         self.assertEqual(self.find(".title").text.split(), ["Front", "Prisms"])
-        self.picture(1).click()
+        self.click(picture(1))
         for key, change in (("g", {"ground": False}), ("h", {"hidden": False}), ("s", {"as": "vertices"}), ("a", {"orbit": None})):
             self.press(key)
             self.studio.wait_for("view", view=1, **change)
@@ -424,8 +427,7 @@ class Controls(Page):
 
     def test_a_view_is_maximised_and_comes_back(self):
         before = self.studio.views[2]
-        # A real one takes both clicks within half a second, which a busy machine may not give.
-        self.js("document.querySelectorAll('.title')[2].dispatchEvent(new MouseEvent('dblclick', {bubbles: true}))")
+        self.click(".title[data-view='2']", clicks=2)
         self.studio.wait_for("unview", view=0)
         self.until(lambda: self.studio.views.get(2, before)["width"] > 1.9 * before["width"])
         self.press("f")
@@ -450,7 +452,7 @@ class Controls(Page):
         self.js("document.body.focus()")
         self.chord("l")
         self.until(theme, "dark")
-        self.browser.refresh()
+        self.driver.refresh()
         self.until(theme, "dark")
 
     def test_help_lists_every_shortcut(self):
@@ -468,8 +470,9 @@ class Controls(Page):
     def test_every_control_has_a_name_and_the_page_does_not_scroll(self):
         self.select("left-upper-arm")
         for tab in range(3):
-            self.browser.find_elements(By.CSS_SELECTOR, "[role=tab]")[tab].click()
-            nodes = self.browser.execute_cdp_cmd("Accessibility.getFullAXTree", {})["nodes"]
+            self.click(f"[role=tab]:nth-child({tab + 1})")
+            self.browser.settle()
+            nodes = self.browser.command("Accessibility.getFullAXTree")["nodes"]
             roles = {"button", "slider", "spinbutton", "checkbox", "radio", "combobox", "textbox", "tab", "treeitem", "option",
                      "application", "tree", "ColorWell"}
             controls = [node for node in nodes if node.get("role", {}).get("value") in roles and not node["ignored"]]
@@ -483,14 +486,13 @@ class Trouble(Page):
     def test_the_page_connects_again_and_asks_for_its_views(self):
         self.allowed = "WebSocket"
         self.select("left-hand")
-        self.picture(0).click()
+        self.click(picture(0))
         self.press("s")
         self.studio.wait_for("view", view=0, **{"as": "vertices"})
         self.select("left-hand")
-        port, project = self.studio.port, self.studio.project
         self.studio.stop()
         self.until(lambda: "does not answer" in self.find("#banners").text)
-        self.studio = MockStudio(project).start(port)
+        self.studio = MockStudio(self.studio.project).start()
         self.studio.wait_for("view", view=0, **{"as": "vertices"})
         for view in range(4):
             self.studio.wait_for("painted", view=view)
@@ -499,7 +501,7 @@ class Trouble(Page):
         self.assertEqual(self.find('[data-key="name"]').get_attribute("value"), "left-hand")
 
     def test_the_token_leaves_the_address(self):
-        self.assertNotIn("token", self.browser.current_url)
+        self.assertNotIn("token", self.driver.current_url)
 
     def test_troubles_are_said(self):
         self.studio.tell({"is": "project", **self.studio.project, "problem": {"text": "joints[3] is no object", "line": 17}})
@@ -524,13 +526,13 @@ class Trouble(Page):
                     });"""
         self.assertEqual(self.js(covers), [])
         self.assertEqual(self.js("return document.documentElement.scrollWidth"), 1280)
-        self.find("#messages .message").click()
-        self.assertEqual([line.text[:9] for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
+        self.click("#messages .message")
+        self.assertEqual([line.text[:9] for line in self.find_all(".message-lines li")],
                          ["Message 0", "Message 1", "Message 2"])
 
     def test_a_message_goes_when_something_else_is_done(self):
         self.select("left-shin")
-        steps = {"a step": lambda: self.find('[data-key="pose.y"]').send_keys(Keys.ARROW_RIGHT),
+        steps = {"a step": lambda: self.type('[data-key="pose.y"]', Keys.ARROW_RIGHT),
                  "undo": lambda: self.chord(Keys.CONTROL, "z"), "redo": lambda: self.chord(Keys.CONTROL, Keys.SHIFT, "z"),
                  "another screen": lambda: self.chord(Keys.F9)}
         for name, act in steps.items():
@@ -539,16 +541,15 @@ class Trouble(Page):
                 self.until(lambda: self.find("#messages").text, f"before {name}")
                 act()
                 self.until(lambda: self.find("#messages").text, "")
-        self.find("#messages .message").click()
-        self.assertEqual([line.text for line in self.browser.find_elements(By.CSS_SELECTOR, ".message-lines li")],
+        self.click("#messages .message")
+        self.assertEqual([line.text for line in self.find_all(".message-lines li")],
                          [f"before {name}" for name in steps])
 
     def test_a_page_of_a_studio_that_was_started_again_says_what_to_do(self):
         self.allowed = "/ws?token"
-        port, project = self.studio.port, self.studio.project
         self.studio.stop()
         self.until(lambda: "does not answer" in self.find("#banners").text)
-        self.studio = MockStudio(project, token="another").start(port)
+        self.studio = MockStudio(self.studio.project, token="another").start()
         self.until(lambda: "Open the link that it has printed" in self.find("#banners").text)
 
     def test_what_is_no_picture_is_left_alone(self):
@@ -561,8 +562,8 @@ class Films(Page):
     kind = projects.film
 
     def of_menu(self, text):
-        self.find(".title").click()
-        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === arguments[0]).click()", text)
+        self.click(".title")
+        self.click(".menu .text", text)
 
     def test_the_cameras_view_has_the_films_shape_and_a_free_one_places_the_camera(self):
         shape = self.studio.project["size"]
@@ -583,22 +584,21 @@ class Films(Page):
         actor = self.studio.project["actors"][0]
         crowd = [{**actor, "name": f"walker-{number}"} for number in range(300)]
         self.studio.project["actors"] = crowd
-        self.browser.refresh()
+        self.driver.refresh()
         self.until(lambda: self.js("return document.querySelector('#tree .count')?.textContent"), "300")
         self.assertLess(self.js("return document.querySelectorAll('*').length"), 2000)
         self.js("const tree = document.querySelector('#tree [role=tree]'); tree.scrollTop = tree.scrollHeight")
         self.until(lambda: self.js("return document.querySelector('[data-key=walker-299]') !== null"))
-        self.js("document.querySelector('[data-key=walker-299] .twist').click()")
-        self.js("document.querySelector('[data-key=walker-299] > .row').click()")
+        self.click("[data-key=walker-299] .twist")
+        self.click("[data-key=walker-299] > .row")
         self.studio.wait_for("select", actor="walker-299")
         self.assertLess(self.js("return document.querySelectorAll('*').length"), 2000)
 
     def test_titles_leave_the_middle_of_narrow_views_free(self):
         """1440 x 900 at 150 percent."""
-        self.addCleanup(self.browser.execute_cdp_cmd, "Emulation.setDeviceMetricsOverride", SIZE)
-        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", SIZE | {"width": 960, "height": 600, "deviceScaleFactor": 1.5})
-        self.js("document.querySelector('.title').click()")
-        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === \"Film's camera\").click()")
+        self.addCleanup(self.browser.resize, *SIZE)
+        self.browser.resize(960, 600, scale=1.5)
+        self.of_menu("Film's camera")
         ends = lambda: self.js("""return [...document.querySelectorAll(".view")].map((view) => {  // noqa: E731
             const [all, title] = [view, view.querySelector(".title")].map((each) => each.getBoundingClientRect());
             return title.width > 40 && title.right < all.x + 0.44 * all.width;
@@ -607,44 +607,43 @@ class Films(Page):
         self.assertEqual(self.find(".title strong").text, "Film's camera")
 
     def test_frames_are_scrubbed_and_played(self):
-        self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
+        self.type(".ruler", Keys.ARROW_RIGHT)
         self.studio.wait_for("frame", frame=25)
         self.js("document.activeElement.blur()")
         self.chord(".")
         self.studio.wait_for("frame", frame=26)
         for name, frame in (("Last frame", 119), ("First frame", 0), ("Next frame", 1)):
-            self.find(f'[aria-label="{name}"]').click()
+            self.click(f'[aria-label="{name}"]')
             self.studio.wait_for("frame", frame=frame)
         self.chord(Keys.SPACE)
         self.studio.wait_for("frame", count=5)  # it plays by the clock, whatever is left out
         self.chord(Keys.SPACE)
 
     def test_steps_name_their_actor_and_keys_show(self):
-        self.js("document.querySelector('[data-key=watcher] .twist').click()")
-        self.js(SHOW_IN_TREE, '[data-key="watcher/head"]')
-        self.js("document.querySelector('[data-key=\"watcher/head\"] > .row').click()")
+        self.click("[data-key=watcher] .twist")
+        self.click('[data-key="watcher/head"] > .row')
         self.studio.wait_for("select", actor="watcher", joint="head")
         self.assertEqual(self.find(".keyed-state.on").text, "Key at this frame")
-        self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
+        self.type('[data-key="pose.z"]', Keys.ARROW_RIGHT)
         self.commit("animate pose watcher head=0,0,1 --frame 24 --clamp")
-        self.find('[aria-label="Blend poses into the frames around"]').click()
-        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === '8 frames to both sides').click()")
-        self.find('[data-key="pose.z"]').send_keys(Keys.ARROW_RIGHT)
+        self.click('[aria-label="Blend poses into the frames around"]')
+        self.click(".menu .text", "8 frames to both sides")
+        self.type('[data-key="pose.z"]', Keys.ARROW_RIGHT)
         self.commit("animate pose watcher head=0,0,1 --falloff 8 --frame 24 --clamp")
-        self.picture().click()
+        self.click(picture())
         self.studio.wait_for("grab", falloff=8)
         self.studio.wait_for("select", actor=None)
-        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.click("[data-key=walker] > .row")
         self.until(lambda: self.find('[role="tab"][aria-selected="true"]').text, "Scene")
-        self.find('[data-key="actor.place.x"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
+        self.type('[data-key="actor.place.x"]', Keys.ARROW_UP, Keys.ENTER)
         self.commit("animate pose walker place=0.1,0,0 --falloff 8 --frame 24")
-        self.find('[data-key="camera.fov"]').send_keys(Keys.ARROW_UP, Keys.ENTER)
+        self.type('[data-key="camera.fov"]', Keys.ARROW_UP, Keys.ENTER)
         self.commit("animate pose camera fov=41 --falloff 8 --frame 24")
 
     def test_a_new_actor_is_placed_beside_others_and_selected(self):
-        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
-        self.find('[data-key="cast.model"]').send_keys("ball")
-        self.find('[data-key="cast.add"]').click()
+        self.click("[data-key=walker] > .row")
+        self.type('[data-key="cast.model"]', "ball")
+        self.click('[data-key="cast.add"]')
         self.commit("film add ball --model ball --beside 24")
         ball = {**self.studio.project["actors"][0], "name": "ball", "joints": []}
         self.studio.tell({"is": "project", **self.studio.project, "actors": [*self.studio.project["actors"], ball]})
@@ -655,12 +654,12 @@ class Films(Page):
         names = ["man", "dog", "soldier.json", "cut.json", *(f"{number}.json" for number in range(20))]
         models = [{"name": name, "what": f"a {name}" if "." not in name else "", "kind": "file", "version": "1"} for name in names]
         self.studio.tell({"is": "models", "models": models})
-        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
+        self.click("[data-key=walker] > .row")
         card = lambda name: self.find(f'[data-key="model.{name}"]')  # noqa: E731
         self.js("arguments[0].scrollIntoView()", card("man"))
         for name in names[:4]:
             self.studio.wait_for("thumbnail", model=name)
-        self.assertNotIn("19.json", [each.get("model") for each in self.studio.heard])  # it is out of sight
+        self.assertNotIn("19.json", [each["model"] for each in self.heard("thumbnail")])  # it is out of sight
         state = lambda name: card(name).find_element(By.CLASS_NAME, "thumbnail").get_attribute("data-state")  # noqa: E731
         self.assertEqual([state("man"), card("man").accessible_name], ["awaited", "man"])
         self.studio.tell({"is": "thumbnail", "model": "man", "version": "1", "png": base64.b64encode(figure_picture()).decode()})
@@ -672,36 +671,36 @@ class Films(Page):
             const at = (x, y) => [...canvas.getContext("2d", {willReadFrequently: true}).getImageData(x * width, y * height, 1, 1).data][0] > 100;
             return [at(0.02, 0.5), at(0.5, 0.5), at(0.5, 0.12), at(0.5, 0.02)];""", card("man")), [False, True, True, False])  # it fills the place
         self.assertIn("cut.json:3: is no list", card("cut.json").text)
-        card("man").click()
+        self.click('[data-key="model.man"]')
         self.press(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
         self.assertEqual(self.js("return document.activeElement.dataset.key"), "model.soldier.json")
         self.press(Keys.ENTER)
         self.assertEqual(self.find('[data-key="cast.model"]').get_attribute("value"), "soldier.json")
         self.assertEqual([card(name).get_attribute("aria-pressed") for name in names[:3]], ["false", "false", "true"])
-        self.find('[data-key="cast.add"]').click()
+        self.click('[data-key="cast.add"]')
         self.commit("film add soldier --model soldier.json --beside 24")
         self.studio.forget()
         self.studio.tell({"is": "models", "models": [{**each, "version": "2"} if each["name"] == "cut.json" else each for each in models]})
         self.studio.wait_for("thumbnail", model="cut.json")
-        self.assertEqual([each["model"] for each in self.studio.heard if each["do"] == "thumbnail"], ["cut.json"])
+        self.assertEqual([each["model"] for each in self.heard("thumbnail")], ["cut.json"])
 
     def test_the_camera_is_cut_at_the_frame(self):
-        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
-        self.find('[data-key="camera.cut"]').click()
+        self.click("[data-key=walker] > .row")
+        self.click('[data-key="camera.cut"]')
         self.commit("animate cut camera --frame 24")
 
     def test_a_motion_lengthens_the_film_where_it_may(self):
         walk = {"name": "walk", "purpose": "Walk", "group": "figure", "needs": "hips", "parameters": []}
         self.studio.tell({"is": "actions", "actions": [walk]})
-        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
-        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Motions').click()")
-        self.find("[data-motion=walk]").click()
+        self.click("[data-key=walker] > .row")
+        self.click("[role=tab]", "Motions")
+        self.click("[data-motion=walk]")
         self.assertTrue(self.find('[data-key="motion.lengthen"]').is_selected())
-        self.find('[data-key="motion.apply"]').click()
+        self.click('[data-key="motion.apply"]')
         self.assertEqual(self.commit("animate walk walker")[-1], "--lengthen")
         self.studio.forget()
-        self.find('[data-key="motion.lengthen"]').click()
-        self.find('[data-key="motion.apply"]').click()
+        self.click('[data-key="motion.lengthen"]')
+        self.click('[data-key="motion.apply"]')
         self.assertNotIn("--lengthen", self.commit("animate walk walker"))
 
     def motions(self):
@@ -715,33 +714,31 @@ class Films(Page):
                 {"name": "seconds", "value": "S", "meaning": "default: 1", "example": "2", "count": 1}]},
             {"name": "throw", "purpose": "Fly with a velocity", "group": "kinematic", "needs": "", "parameters": [
                 {"name": "to", "value": "X Y Z", "meaning": "where it comes down", "example": "1 2 0", "count": 3}]}]})
-        self.js("document.querySelector('[data-key=\"walker\"] > .row').click()")
-        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Motions').click()")
-
-    def does(self, what):
-        return [each for each in self.studio.heard if each["do"] == what]
+        self.click("[data-key=walker] > .row")
+        self.click("[role=tab]", "Motions")
 
     def test_a_preview_of_a_motion_stays_while_frames_are_looked_at(self):
         self.motions()
-        self.find("[data-motion=walk]").click()
+        self.click("[data-motion=walk]")
         self.choose("motion.start", "frame")
-        self.find('[data-key="motion.preview"]').click()
+        self.click('[data-key="motion.preview"]')
         self.until(lambda: self.find(".motion-end [role=status]").text, "Preview is on: play or scrub to see it.")
         walk = ["animate", "walk", "walker", "--at", "24", "--lengthen"]
         self.studio.wait_for("preview", step={"commands": [walk]})
-        self.find(".ruler").send_keys(Keys.ARROW_RIGHT)
+        self.type(".ruler", Keys.ARROW_RIGHT)
         self.studio.wait_for("preview", count=2, step={"commands": [walk]})
+        self.browser.settle()
         self.assertEqual([each["do"] for each in self.studio.heard if each["do"] in ("frame", "preview")], ["preview", "frame", "preview"])
         self.studio.tell({"is": "refused", "do": "preview", "text": "no room to walk"})
         self.until(lambda: self.find(".motion-end [role=status]").text, "no room to walk")
-        self.find('[data-key="motion.apply"]').click()
+        self.click('[data-key="motion.apply"]')
         self.commit("animate walk walker --at 24")
         self.assertEqual(self.find('[data-key="motion.preview"]').get_attribute("aria-pressed"), "false")
 
     def test_another_step_ends_a_preview_of_a_motion(self):
         self.motions()
-        self.find("[data-motion=walk]").click()
-        self.find('[data-key="motion.preview"]').click()
+        self.click("[data-motion=walk]")
+        self.click('[data-key="motion.preview"]')
         self.studio.wait_for("preview")
         self.chord(Keys.CONTROL, "z")
         self.until(lambda: self.find('[data-key="motion.preview"]').get_attribute("aria-pressed"), "false")
@@ -749,82 +746,81 @@ class Films(Page):
 
     def test_a_motion_with_part_of_a_vector_is_not_sent(self):
         self.motions()
-        self.find("[data-motion=throw]").click()
+        self.click("[data-motion=throw]")
         for key in ("motion.to", "motion.to1"):
-            self.find(f'[data-key="{key}"]').send_keys("2")
+            self.type(f'[data-key="{key}"]', "2")
         for button in ("motion.apply", "motion.preview"):
-            self.find(f'[data-key="{button}"]').click()
+            self.click(f'[data-key="{button}"]')
             self.until(lambda: self.find(".motion-problem").text, "To: give x, y and z")
-        self.assertEqual(self.does("commit") + self.does("preview"), [])
-        self.find('[data-key="motion.to2"]').send_keys("0")
+        self.assertEqual(self.heard("commit") + self.heard("preview"), [])
+        self.type('[data-key="motion.to2"]', "0")
         self.studio.wait_for("preview")
-        self.find('[data-key="motion.apply"]').click()
+        self.click('[data-key="motion.apply"]')
         self.commit("animate throw walker --to 2 2 0")
 
     def test_what_was_typed_for_a_motion_is_there_again(self):
         self.motions()
-        self.find("[data-motion=walk]").click()
-        self.find('[data-key="motion.pace"]').send_keys("1.5")
+        self.click("[data-motion=walk]")
+        self.type('[data-key="motion.pace"]', "1.5")
         self.choose("motion.start", "frame")
-        self.find("[data-motion=nod]").click()
+        self.click("[data-motion=nod]")
         self.choose("motion.first", "left")
         values = lambda *keys: [self.find(f'[data-key="motion.{key}"]').get_attribute("value") for key in keys]  # noqa: E731
         self.assertEqual(values("first", "seconds", "start"), ["left", "", "last"])
-        self.find("[data-motion=walk]").click()
+        self.click("[data-motion=walk]")
         self.assertEqual(values("pace", "to", "start"), ["1.5", "", "frame"])
-        self.find("[data-motion=nod]").click()
-        self.find('[data-key="motion.apply"]').click()
+        self.click("[data-motion=nod]")
+        self.click('[data-key="motion.apply"]')
         self.commit("animate nod walker --first left --lengthen")
 
     def test_motions_and_their_parameters_say_what_they_mean(self):
         self.motions()
         self.assertEqual(self.find("[data-motion=throw]").get_attribute("title"), "Fly with a velocity.")
-        self.find("[data-motion=nod]").click()
+        self.click("[data-motion=nod]")
         for key, title in (("first", "Left or right; default: right."), ("seconds", "Default: 1. In seconds.")):
             with self.subTest(key):
                 field = f'[data-key="motion.{key}"]'
                 self.assertEqual(self.find(field).get_attribute("title"), title)
                 self.assertEqual(self.find(f".line:has({field})").get_attribute("title"), title)
-        self.find("[data-motion=walk]").click()
+        self.click("[data-motion=walk]")
         self.assertEqual(self.find('[data-key="motion.to1"]').get_attribute("title"), "A place on the floor. In units of length.")
         self.assertEqual(self.find('[data-key="motion.pace"]').get_attribute("title"), "Steps a second; default: 2.")
 
     def test_the_tab_is_the_same_after_a_rendering_was_looked_at(self):
-        self.js("[...document.querySelectorAll('[role=tab]')].find((each) => each.textContent === 'Scene').click()")
+        self.click("[role=tab]", "Scene")
         shown = lambda: self.find('#panels [role="tab"][aria-selected="true"]').text  # noqa: E731
-        self.find('[data-value="rendering"]').click()
+        self.click('[data-value="rendering"]')
         self.until(shown, "Rendering")
-        self.find('[data-value="scene"]').click()
+        self.click('[data-value="scene"]')
         self.until(shown, "Scene")
 
     def test_views_show_a_first_figure_that_was_added_to_a_floor(self):
-        self.js("document.querySelector('.title').click()")
-        self.js("[...document.querySelectorAll('.menu button')].find((each) => each.textContent === \"Film's camera\").click()")
+        self.of_menu("Film's camera")
         self.studio.wait_for("view", view=0, **{"from": "camera"})
         one, other = self.studio.project["actors"]
         floor, man, ball = ({**one, "name": name, "joints": []} for name in ("floor", "man", "ball"))
         self.studio.tell({"is": "project", **self.studio.project, "actors": [floor]})
         self.until(lambda: self.find("#tree .count").text, "1")
-        self.js("document.querySelector('[data-key=\"floor\"] > .row').click()")
+        self.click("[data-key=floor] > .row")
         for actor, actors, shown in ((man, [floor, man], [1, 2, 3]), (ball, [floor, man, ball], [])):
             self.studio.forget()
-            self.find('[data-key="cast.model"]').send_keys(actor["name"])
-            self.find('[data-key="cast.add"]').click()
+            self.type('[data-key="cast.model"]', actor["name"])
+            self.click('[data-key="cast.add"]')
             self.commit(f"film add {actor['name']}")
             self.studio.project["actors"] = actors
             self.studio.tell({"is": "project", **self.studio.project})
             self.studio.wait_for("select", actor=actor["name"])
-            time.sleep(0.2)
+            self.browser.settle()
             after = self.studio.heard[[each["do"] for each in self.studio.heard].index("select"):]
             self.assertEqual([each["view"] for each in after if each["do"] == "orbit" and each["how"] == "selected"], shown)
 
     def scene(self):
         """The tab, with all that is shut at first."""
-        self.find("[role=tab]:nth-child(3)").click()
+        self.click("[role=tab]:nth-child(3)")
         self.js("for (const each of document.querySelectorAll('.more')) each.open = true")
 
     def write(self, key, text):
-        self.find(f'[data-key="{key}"]').send_keys(Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
+        self.type(f'[data-key="{key}"]', Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
 
     def choose(self, key, value):
         self.js("""const field = document.querySelector(arguments[0]);
@@ -836,7 +832,7 @@ class Films(Page):
 
     def test_a_light_has_a_field_for_each_of_its_keys(self):
         self.scene()
-        self.find('[data-key="light/2"]').click()
+        self.click('[data-key="light/2"]')
         keys = projects.keys()["light"]
         fields = lambda: list(dict.fromkeys(name for name in self.keys_shown("light") if name in keys))  # noqa: E731
         self.until(fields, [name for name, key in keys.items() if "spot" in key.get("of", ["spot"])])
@@ -847,35 +843,33 @@ class Films(Page):
                                  ("softness", "0.75", "film light set 2 softness=0.75")):
             self.write(f"light.{key}", text)
             self.commit(words)  # at the frame only what has keys
-        self.find('[data-key="light/1"]').click()
+        self.click('[data-key="light/1"]')
         self.until(fields, ["direction", "color", "intensity", "shadow", "size"])
-        self.find('[data-key="light.add.spot"]').click()
+        self.click('[data-key="light.add.spot"]')
         self.commit("film light add place=0,-4,5 at=0,0,1")
 
     def test_a_light_casts_where_its_box_is_ticked(self):
         self.scene()
-        self.find('[data-key="light/1"]').click()
+        self.click('[data-key="light/1"]')
         shadow = self.find('input[type=checkbox][data-key="light.shadow"]')
         self.assertFalse(shadow.is_selected())
-        shadow.click()
+        self.click('input[type=checkbox][data-key="light.shadow"]')
         self.commit("film light set 1 shadow=true")
         size = self.find('[data-key="light.size"]')
         self.assertEqual([size.get_attribute("aria-valuemax"), self.js("return arguments[0].nextSibling.textContent", size)], ["90", "°"])
         self.write("light.size", "0.53")
         self.commit("film light set 1 size=0.53")
-        self.find('[data-key="light/2"]').click()
+        self.click('[data-key="light/2"]')
         self.until(lambda: self.find('[data-key="light.size"]').get_attribute("aria-valuemax"), "1000000000")
 
     def test_what_is_typed_leaves_the_other_numbers_of_a_vector(self):
         self.scene()
-        self.find('[data-key="light/1"]').click()
-        field = self.find('[data-key="light.direction.x"]')
-        field.send_keys(Keys.CONTROL, "a", Keys.NULL, "1")
+        self.click('[data-key="light/1"]')
+        self.type('[data-key="light.direction.x"]', Keys.CONTROL, "a", Keys.NULL, "1")
         lights = [dict(each) for each in self.studio.project["lights"]]
         lights[0]["direction"] = [0.6, 0, 0.8]  # the studio shows a direction at its length, 1
         self.studio.tell({"is": "poses", "frame": 24, "actors": [], "camera": self.studio.project["camera"], "lights": lights})
-        time.sleep(0.2)
-        field.send_keys(Keys.ENTER)
+        self.type('[data-key="light.direction.x"]', Keys.ENTER)
         self.commit("film light set 1 direction=1,0,1")
 
     def test_camera_and_film_have_fields_for_their_keys(self):
@@ -899,21 +893,21 @@ class Films(Page):
         self.assertIn("frames per second", self.find(".line:has([data-key='film.rate'])").get_attribute("title").lower())
 
     def test_what_is_seldom_needed_is_shut_at_first(self):
-        self.find("[role=tab]:nth-child(3)").click()
+        self.click("[role=tab]:nth-child(3)")
         self.assertEqual(self.js("""const near = document.querySelector('[data-key="camera.near"]');
                                     return near.closest('details:not([open])').querySelector('summary').dataset.key;"""), "more Camera")
-        self.find('[data-key="more Camera"]').click()
+        self.click('[data-key="more Camera"]')
         self.write("camera.near", "0.5")
         self.commit("film camera near=0.5")
 
     def test_a_rendering_is_started_shown_and_stopped(self):
         self.chord(Keys.F9)
         self.until(lambda: self.find("#rendering").is_displayed())
-        self.find('[data-key="render.nodes"]').send_keys("3")
-        self.find(".primary").click()
+        self.type('[data-key="render.nodes"]', "3")
+        self.click(".primary")
         self.assertEqual(self.studio.wait_for("render")["options"], {"folder": "out", "nodes": 3})
-        self.js("[...document.querySelectorAll('button')].find((each) => each.textContent === 'Make video').click()")
-        self.assertEqual(self.studio.wait_for("render")["options"], {"folder": "out", "nodes": 3, "video": "out.mp4"})
+        self.click("button", "Make video")
+        self.assertEqual(self.studio.wait_for("render", count=2)["options"], {"folder": "out", "nodes": 3, "video": "out.mp4"})
         self.studio.tell({"is": "rendering", "state": "running", "text": "", "done": 4, "of": 12, "fps": 2.5, "folder": "out",
                           "nodes": [{"name": "node 0", "machine": "here", "slow": False}, {"name": "node 1", "machine": "there", "slow": True}]})
         self.until(lambda: "4 of 12 frames, 2.5 a second" in self.find(".progress-words").text)
@@ -925,7 +919,7 @@ class Films(Page):
         self.until(lambda: "Frame 4" in self.find(".caption").text)
         shown = "return [...document.querySelector(arguments[0]).getContext('2d').getImageData(...arguments[1]).data]"
         self.until(lambda: self.js(shown, ".sheet canvas", [31, 31, 1, 1]), [10, 20, 30, 255])
-        self.find('[data-overlay="moving"]').click()
+        self.click('[data-overlay="moving"]')
         blocks = [self.js(shown, ".overlay", [x, y, 1, 1]) for x, y in ((8, 8), (24, 8), (8, 24), (24, 24))]
         self.assertGreater(blocks[0][0], 200)  # moves: tinted
         self.assertEqual([block[3] > 0 for block in blocks], [True, True, False, False])
@@ -933,7 +927,7 @@ class Films(Page):
                    slider.value = 2;
                    slider.dispatchEvent(new Event("input"));""")
         self.studio.wait_for("scrub", frame=2)
-        self.js("[...document.querySelectorAll('.actions button')].find((each) => each.textContent === 'Stop').click()")
+        self.click(".actions button", "Stop")
         self.studio.wait_for("stop")
 
 

@@ -1,9 +1,6 @@
 """The timeline of a film in a headless Chromium: what hands do to keys leaves as the commands that a person would
 type. Takes what page_test.py takes."""
 
-import time
-
-from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 import projects
@@ -20,33 +17,25 @@ class Timeline(Page):
         super().setUp()
         self.studio.channels = channels()
         self.studio.tell({"is": "channels", "things": self.studio.channels})
-        self.until(lambda: len(self.browser.find_elements(By.CSS_SELECTOR, ".key-row")) >= 3)
-        self.js("document.querySelector('[data-row=walker] .twist').dispatchEvent(new MouseEvent('click', {bubbles: true}))")
-        self.until(lambda: len(self.browser.find_elements(By.CSS_SELECTOR, ".key-row")), 6)
+        self.click("[data-row=walker] .twist")
+        self.until(lambda: len(self.find_all(".key-row")), 6)
 
     # Where a key is, in pixels of the page: rows and the ruler's numbers are known to hands, too.
 
     def x(self, frame):
+        self.browser.settle()
         left, width = self.js("const at = document.querySelector('.ruler').getBoundingClientRect(); return [at.x, at.width]")
         return left + 18 + frame * (width - 36) / (self.studio.project["frames"] - 1)
 
     def y(self, row):
+        self.browser.settle()
         return self.js("const at = document.querySelector(arguments[0]).getBoundingClientRect(); return at.y + at.height / 2", f'[data-row="{row}"]')
 
-    def mouse(self, kind, x, y, keys=0):
-        self.browser.execute_cdp_cmd("Input.dispatchMouseEvent", {
-            "type": kind, "x": x, "y": y, "button": "left", "buttons": 1 if kind != "mouseReleased" else 0, "clickCount": 1, "modifiers": keys})
-
-    def click(self, row, frame, keys=0):
-        for kind in ("mousePressed", "mouseReleased"):
-            self.mouse(kind, self.x(frame), self.y(row), keys)
+    def click_at(self, row, frame, keys=0):
+        self.browser.click(self.x(frame), self.y(row), keys=keys)
 
     def pull(self, begin, end, keys=0, drop=True):
-        self.mouse("mousePressed", *begin, keys)
-        for step in range(1, 6):
-            self.mouse("mouseMoved", *(a + (b - a) * step / 5 for a, b in zip(begin, end)), keys)
-        if drop:
-            self.mouse("mouseReleased", *end, keys)
+        self.browser.drag(begin, end, steps=5, keys=keys, drop=drop)
 
     def drag(self, row, frame, to, keys=0, drop=True):
         y = self.y(row)
@@ -68,8 +57,8 @@ class Timeline(Page):
         self.drag("walker left-shin", 20, 24, drop=False)
         self.press(Keys.ESCAPE)
         self.studio.wait_for("cancel")
-        self.mouse("mouseReleased", self.x(24), self.y("walker left-shin"))
-        self.assertFalse([each for each in self.studio.heard if each["do"] == "commit"])
+        self.browser.release(self.x(24), self.y("walker left-shin"))
+        self.assertEqual(self.heard("commit"), [])
 
     def test_keys_of_a_frame_move_with_alt_as_copies(self):
         self.drag("walker", 20, 30, keys=ALT)
@@ -79,14 +68,14 @@ class Timeline(Page):
         self.assertEqual(self.commands(), ["animate move --all --frame 0 --to 10"])
 
     def test_runs_that_pass_over_others_go_in_their_order(self):
-        self.click("walker left-shin", 0)
-        self.click("walker left-shin", 40, keys=SHIFT)
+        self.click_at("walker left-shin", 0)
+        self.click_at("walker left-shin", 40, keys=SHIFT)
         self.drag("walker left-shin", 40, 70)
         self.assertEqual(self.commands(), ["animate move walker left-shin --frame 40 --to 70",
                                            "animate move walker left-shin --frame 0 --to 30"])
         self.studio.forget()
-        self.click("walker left-shin", 20)
-        self.click("walker left-shin", 60, keys=SHIFT)
+        self.click_at("walker left-shin", 20)
+        self.click_at("walker left-shin", 60, keys=SHIFT)
         self.drag("walker left-shin", 60, 50)
         self.assertEqual(self.commands(), ["animate move walker left-shin --frame 20 --to 10",
                                            "animate move walker left-shin --frame 60 --to 50"])
@@ -95,11 +84,10 @@ class Timeline(Page):
         self.pull((self.x(15), self.y("walker left-shin") - 8), (self.x(45), self.y("walker head") + 8))
         self.press("e")
         self.until(lambda: self.js("return document.activeElement.role"), "menuitemradio")
-        [item] = [each for each in self.browser.find_elements(By.CSS_SELECTOR, ".menu button") if each.text == "Begin and end slowly"]
-        item.click()
+        self.click(".menu .text", "Begin and end slowly")
         self.assertEqual(self.commands(), ["animate time walker left-shin head --frame 20-40 --ease both"])
         self.studio.forget()
-        self.find(".drawing").click()
+        self.click(".drawing")
         self.press(Keys.CONTROL, "a")
         self.press(Keys.DELETE)
         self.assertEqual(self.commands(), ["animate delete --all --frame 0-60"])
@@ -108,10 +96,10 @@ class Timeline(Page):
         dense = {"name": "left-shin", "axes": ["y"], "keys": [key(frame, 40) for frame in range(120)]}
         self.studio.channels = [{"thing": "walker", "kind": "actor", "parts": [dense]}]
         self.studio.tell({"is": "channels", "things": self.studio.channels})
-        self.until(lambda: self.browser.find_elements(By.CSS_SELECTOR, '[data-row="walker head"]'), [])
+        self.until(lambda: self.find_all('[data-row="walker head"]'), [])
         x, y = self.x(20), self.y("walker left-shin")
         self.pull((x + 4, y - 10), (self.x(21) + 4, y + 10))
-        self.assertEqual([each for each in self.studio.heard if each["do"] in ("preview", "commit")], [])
+        self.assertEqual(self.heard("preview") + self.heard("commit"), [])
         self.press(Keys.DELETE)
         self.assertEqual(self.commands(), ["animate delete walker --frame 21"])
         self.studio.forget()
@@ -119,7 +107,7 @@ class Timeline(Page):
         self.assertEqual(self.commands(), ["animate move walker --frame 20 --to 24"])
 
     def listed(self):
-        self.find(".commands").click()
+        self.click(".commands")
         lines = self.js("return [...document.querySelectorAll('.command-lines li')].map((line) => line.textContent)")
         self.js("document.querySelector('.popover').hidePopover()")
         self.until(lambda: self.js("return document.querySelector('.popover')"), None)
@@ -175,11 +163,10 @@ class Timeline(Page):
 
     def choose(self, text):
         self.until(lambda: self.js("return document.activeElement.role ?? ''").startswith("menuitem"))
-        [item] = [each for each in self.browser.find_elements(By.CSS_SELECTOR, ".menu button") if each.text == text]
-        item.click()
+        self.click(".menu .text", text)
 
     def test_keys_hold_and_many_are_reduced_to_few(self):
-        self.click("walker left-shin", 20)
+        self.click_at("walker left-shin", 20)
         self.press("e")
         self.choose("Hold, then jump")
         self.assertEqual(self.commands(), ["animate time walker left-shin --frame 20 --ease hold"])
@@ -190,7 +177,7 @@ class Timeline(Page):
         self.press(Keys.CONTROL, "a", Keys.NULL, "0.5", Keys.ENTER)
         self.assertEqual(self.commands(), ["animate reduce walker left-shin head --error 0.5 --frame 0-40"])
         self.studio.forget()
-        self.find(".drawing").click()
+        self.click(".drawing")
         self.press(Keys.CONTROL, "a")
         self.press("t")
         self.choose("Reduce\u2026")
@@ -198,7 +185,7 @@ class Timeline(Page):
         self.assertEqual(self.commands(), ["animate reduce camera --error 1 --frame 0-60", "animate reduce walker --error 1 --frame 0-60"])
 
     def test_copies_are_put_at_the_frame_and_keys_inserted(self):
-        self.click("walker head", 20)
+        self.click_at("walker head", 20)
         self.press(Keys.CONTROL, "c")
         self.press(Keys.CONTROL, "v")
         self.assertEqual(self.commands(), ["animate copy walker head --frame 20 --to 24"])
@@ -207,7 +194,7 @@ class Timeline(Page):
         self.assertEqual(self.commands(), ["animate key walker head --frame 24"])
 
     def curves(self, row):
-        self.js("document.querySelector(arguments[0]).dispatchEvent(new MouseEvent('click', {bubbles: true}))", f'[data-row="{row}"]')
+        self.click(f'[data-row="{row}"]')
         self.press("k")
         self.studio.wait_for("curves", thing="walker", parts=[row.split()[1]])
         self.until(lambda: self.find(".drawing .nothing").is_displayed(), False)
@@ -218,11 +205,10 @@ class Timeline(Page):
         return top + height - 26 - (value - least) * (height - 52) / (most - least)
 
     def test_points_and_slopes_of_curves_are_pulled(self):
-        self.js("document.querySelector('[data-row=walker]').click()")
+        self.click("[data-row=walker]")
         self.curves("walker left-shin")
         spot = lambda frame, value: (self.x(frame), self.curve_y(value, 0, 50))  # noqa: E731
-        for kind in ("mousePressed", "mouseReleased"):
-            self.mouse(kind, *spot(20, 50))
+        self.browser.click(*spot(20, 50))
         # The key's own slope is half a degree a frame, from the key before to the one after.
         self.pull(spot(20 + 20 / 3, 50 + 20 / 3 * 0.5), spot(30, 50))
         [command] = self.commands()
@@ -258,23 +244,22 @@ class Timeline(Page):
                 self.assertGreater(self.js(drawn)[0], 0.4)
 
     def test_the_selected_keys_numbers_are_typed(self):
-        self.click("walker left-shin", 40)
-        field = self.find('[data-key="key.y"]')
-        field.click()
-        field.send_keys("12.5", Keys.ENTER)  # over what the click has selected
+        self.click_at("walker left-shin", 40)
+        self.click('[data-key="key.y"]')
+        self.press("12.5", Keys.ENTER)  # over what the click has selected
         self.assertEqual(self.commands(), ["animate pose walker left-shin.y=12.5 --frame 40 --clamp"])
-        self.find('[data-key="key.flat"]').click()
+        self.click('[data-key="key.flat"]')
         self.assertEqual(self.commands(2), ["animate tangent walker left-shin --frame 40 --flat"])
 
     def test_thousands_of_keys_are_drawn_and_selected(self):
         parts = [{"name": f"joint-{i}", "axes": ["x"], "keys": [key(frame, i) for frame in range(120)]} for i in range(200)]
         self.studio.tell({"is": "channels", "things": [{"thing": "walker", "kind": "actor", "parts": parts}]})
         self.until(lambda: self.js("return document.querySelectorAll('.key-row').length < 20 && document.querySelector('[data-row=\"walker joint-3\"]') !== null"))
-        begin = time.monotonic()
-        self.find(".drawing").click()
+        begin = self.browser.worked()
+        self.click(".drawing")
         self.press(Keys.CONTROL, "a")
         self.until(lambda: self.find(".key-values").text, "24000 keys selected, at 120 frames")
-        self.assertLess(time.monotonic() - begin, 4)
+        self.assertLess(self.browser.worked() - begin, 4)
         self.press(Keys.DELETE)
         self.assertEqual(self.commands(), ["animate delete walker --frame 0-119"])
 

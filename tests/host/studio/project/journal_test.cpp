@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "host/content/document/file.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::studio {
 namespace {
@@ -24,7 +24,7 @@ class Journals : public testing::Test {
   std::string lines() const { return document::read_file(Journal(file_).path()); }
   void set_lines(const std::string& lines) const { std::ofstream(Journal(file_).path()) << lines; }
 
-  sinks::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
   std::filesystem::path file_ = folder_ / "a.json";
   std::string text_ = "one";
 };

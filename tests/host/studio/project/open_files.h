@@ -10,7 +10,7 @@
 #include "hal/failure/explain.h"
 #include "host/content/document/file.h"
 #include "host/studio/project/project.h"
-#include "tests/host/render/sinks/temporary_folder.h"
+#include "tests/temporary_folder.h"
 #include "tests/host/studio/step_words.h"
 
 namespace mars::studio {
@@ -70,7 +70,7 @@ class OpenFiles : public testing::Test {
   static bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
  private:
-  sinks::TemporaryFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 }  // namespace mars::studio

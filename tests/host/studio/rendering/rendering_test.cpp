@@ -2,7 +2,6 @@
 #include "host/studio/rendering/rendering.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <boost/asio/executor_work_guard.hpp>
@@ -16,6 +15,7 @@
 #include "hal/failure/failure.h"
 #include "host/images/picture_file.h"
 #include "tests/sanitizers/sanitized.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::studio {
 namespace {
@@ -32,16 +32,11 @@ struct Page {
 class RenderingTest : public testing::Test {
  protected:
   RenderingTest() {
-    fs::create_directories(folder_);
     rendering_ =
-        make_rendering(context_, {fs::path(MARS_SOURCE_DIR) / "examples/robot-arm.json", folder_, MARS_PROGRAM},
+        make_rendering(context_, {fs::path(MARS_SOURCE_DIR) / "examples/robot-arm.json", folder_.path(), MARS_PROGRAM},
                        {[this](ViewPicture picture) { take(std::move(picture)); },
                         [this](PageNumber, const Json& message) { messages_.push_back(message); }});
     rendering_->page_opened(1);
-  }
-  ~RenderingTest() override {
-    rendering_.reset();
-    fs::remove_all(folder_);
   }
 
   void take(ViewPicture picture) {
@@ -79,7 +74,7 @@ class RenderingTest : public testing::Test {
   // What the page shows now.
   void expect_shows(std::uint32_t frame) {
     const std::string number = std::to_string(frame);
-    const auto file = folder_ / "out" / ("frame-" + std::string(4 - number.size(), '0') + number + ".png");
+    const auto file = folder_ / ("out/frame-" + std::string(4 - number.size(), '0') + number + ".png");
     const images::Image image = images::read_picture(images::PictureFormat::png, file);
     ASSERT_EQ(image.pixels.size(), page_.pixels.size());
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -89,7 +84,7 @@ class RenderingTest : public testing::Test {
   boost::asio::io_context context_;
   // Without it, a context that waits for another thread's work alone would stop for good.
   const boost::asio::executor_work_guard<boost::asio::io_context::executor_type> kept_{context_.get_executor()};
-  const fs::path folder_ = fs::temp_directory_path() / ("mars-rendering-" + std::to_string(getpid()));
+  const test::TemporaryFolder folder_;
   std::vector<Json> messages_;
   Page page_;
   bool paints_ = true;

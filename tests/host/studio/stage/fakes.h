@@ -91,6 +91,14 @@ class FakeLink : public RendererLink {
   std::vector<std::uint32_t> closed;
 };
 
+// The size of tests' views.
+inline constexpr int kViewWidth = 640, kViewHeight = 480;
+
+// A pixel as pages name it.
+inline std::string xy(const glm::dvec2& pixel) {
+  return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
+}
+
 // A stage with one page, 1, that keeps what it gets.
 struct OnStage {
   explicit OnStage(animator::Film film, bool model = false)

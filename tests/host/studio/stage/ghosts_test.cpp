@@ -15,7 +15,6 @@
 namespace mars::studio {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 480;
 constexpr const char* kOrbit = R"(, "orbit": {"center": [1.5, 0, 0], "turn": -90, "height": 0, "distance": 9})";
 
 // A box that slides along x by 1/8 a frame, a rod on it that turns about y, and a post that stands.
@@ -33,15 +32,15 @@ animator::Film slider() {
         {"frame": 24, "place": [2, 0, 0]}]}]})");
 }
 
-struct Scene : OnStage {
-  Scene() : OnStage(slider()) { project.set_frame(8); }
+struct GhostScene : OnStage {
+  GhostScene() : OnStage(slider()) { project.set_frame(8); }
 
   void show(const std::string& ghosts) {
-    view(0, kWidth, kHeight, "free", "stick", kOrbit + (", \"ghosts\": " + ghosts));
+    view(0, kViewWidth, kViewHeight, "free", "stick", kOrbit + (", \"ghosts\": " + ghosts));
     if (pictures.empty()) return;
     paint();
   }
-  Screen screen() const { return {camera_from({From::free, {{1.5, 0, 0}, -90, 0, 9}}, 1), kWidth, kHeight}; }
+  Screen screen() const { return {camera_from({From::free, {{1.5, 0, 0}, -90, 0, 9}}, 1), kViewWidth, kViewHeight}; }
   std::set<std::string> ghost_texts() const {
     std::set<std::string> texts;
     const Json sent_last = last("handles");
@@ -77,7 +76,7 @@ double area_of(const Polyline& polygon) {
 }
 
 TEST(Ghosts, AreTheOutlinesOfTheSegmentsAtOtherFrames) {
-  Scene scene;
+  GhostScene scene;
   scene.take(R"({"do": "select", "actor": "box", "joint": null})");
   scene.show(R"({"before": 1, "after": 1, "step": 4})");
   EXPECT_EQ(scene.ghost_texts(), (std::set<std::string>{"-4", "4"}));
@@ -97,7 +96,7 @@ TEST(Ghosts, AreTheOutlinesOfTheSegmentsAtOtherFrames) {
 }
 
 TEST(Ghosts, OfNobodySelectedAreThoseThatMove) {
-  Scene scene;
+  GhostScene scene;
   scene.show(R"({"before": 2, "after": 0, "step": 3})");
   EXPECT_EQ(scene.ghost_texts(), (std::set<std::string>{"-3", "-6"}));
   EXPECT_EQ(scene.shapes("ghost:-3").size(), 2u) << "the post stands";
@@ -110,7 +109,7 @@ TEST(Ghosts, OfNobodySelectedAreThoseThatMove) {
 }
 
 TEST(Ghosts, EndWithTheFilmAndLeaveOutWhatStandsWhereItIs) {
-  Scene scene;
+  GhostScene scene;
   scene.take(R"({"do": "select", "actor": "box", "joint": null})");
   scene.project.set_frame(24);
   scene.show(R"({"before": 2, "after": 3, "step": 8})");
@@ -118,9 +117,9 @@ TEST(Ghosts, EndWithTheFilmAndLeaveOutWhatStandsWhereItIs) {
 }
 
 TEST(Ghosts, AreDrawnBackToFrontBelowAllOthers) {
-  Scene scene;
+  GhostScene scene;
   scene.take(R"({"do": "select", "actor": "box", "joint": "rod"})");
-  scene.view(0, kWidth, kHeight, "free", "stick",
+  scene.view(0, kViewWidth, kViewHeight, "free", "stick",
              R"(, "orbit": {"center": [1, 0, 0], "turn": 0, "height": 0, "distance": 9}, "handles": "turn",
                   "ghosts": {"before": 1, "after": 1, "step": 4})");
   const Json shapes = scene.pictures.back().handles;
@@ -135,7 +134,7 @@ TEST(Ghosts, AreDrawnBackToFrontBelowAllOthers) {
 }
 
 TEST(Ghosts, TheTrailIsTheWayOfTheJointsEndWithATickAFrame) {
-  Scene scene;
+  GhostScene scene;
   scene.take(R"({"do": "select", "actor": "box", "joint": "rod"})");
   scene.show(R"({"before": 2, "after": 2, "step": 4})");
   std::map<std::string, Json> ticks;
@@ -174,7 +173,7 @@ TEST(Ghosts, AreCutAtTheEye) {
 }
 
 TEST(Ghosts, AreNotOfAFilmThatShowsNothing) {
-  Scene scene;
+  GhostScene scene;
   scene.take(R"({"do": "select", "actor": "box", "joint": null})");
   scene.show(R"({"before": 1, "after": 1, "step": 4})");
   ASSERT_FALSE(scene.ghost_texts().empty());

@@ -20,12 +20,6 @@
 namespace mars::studio {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 480;
-
-std::string xy(const glm::dvec2& pixel) {
-  return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
-}
-
 // A model of an arm along x: `upper` is free about z and y within limits, `lower` a hinge about y.
 animator::Film arm() {
   animator::Film film =
@@ -41,22 +35,22 @@ animator::Film arm() {
   return film;
 }
 
-struct Scene : OnStage {
-  explicit Scene(animator::Film film, bool model = false, const std::string& from = "side")
+struct HandScene : OnStage {
+  explicit HandScene(animator::Film film, bool model = false, const std::string& from = "side")
       : OnStage(std::move(film), model) {
     const std::string orbit =
         from == "camera" ? "" : R"(, "orbit": {"center": [1.5, 0, 0], "turn": -90, "height": 0, "distance": 9})";
-    view(0, kWidth, kHeight, from, "stick", orbit);
+    view(0, kViewWidth, kViewHeight, from, "stick", orbit);
     eye = {From::side, {{1.5, 0, 0}, -90, 0, 9}};
     if (from == "free") eye.from = From::free;
   }
 
   void tool(const std::string& handles) {
-    view(0, kWidth, kHeight, eye.from == From::free ? "free" : "side", "stick",
+    view(0, kViewWidth, kViewHeight, eye.from == From::free ? "free" : "side", "stick",
          R"(, "orbit": {"center": [1.5, 0, 0], "turn": )" + std::to_string(eye.orbit.turn) + R"(, "height": )" +
              std::to_string(eye.orbit.height) + R"(, "distance": 9}, "handles": ")" + handles + "\"");
   }
-  Screen screen() const { return {camera_from(eye, 1), kWidth, kHeight}; }
+  Screen screen() const { return {camera_from(eye, 1), kViewWidth, kViewHeight}; }
   glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
   void grab(const glm::dvec2& at) { take(R"({"do": "grab", "view": 0, )" + xy(at) + "}"); }
   void drag(const glm::dvec2& at, const char* keys = "[]") {
@@ -74,7 +68,7 @@ struct Scene : OnStage {
 };
 
 TEST(Picking, TheNearestSurfaceUnderThePixel) {
-  Scene scene(arm());
+  HandScene scene(arm());
   const auto picked = [&](const glm::dvec3& place) {
     scene.take(R"({"do": "hover", "view": 0, )" + xy(scene.pixel(place)) + "}");
     return scene.last("hovered")["joint"];
@@ -91,7 +85,7 @@ TEST(Picking, TheNearestSurfaceUnderThePixel) {
 TEST(Picking, WhereNoSurfaceIsTheNearestJoint) {
   animator::Film film = arm();
   film.models[0].joints[1].segment.reset();
-  Scene scene(film);
+  HandScene scene(film);
   scene.take(R"({"do": "hover", "view": 0, )" + xy(scene.pixel({1.55, 0, 0}) + glm::dvec2(0, 9)) + "}");
   EXPECT_FALSE(scene.last("hovered")["joint"].is_null());
 }
@@ -116,7 +110,7 @@ TEST(Picking, AMillionTrianglesTakeLittleTime) {
   FakeProject project(film);
   Moments moments(project);
   moments.renew();
-  const Screen screen(camera_from({From::side, {{1.5, 0, 0}, -90, 0, 9}}, 1), kWidth, kHeight);
+  const Screen screen(camera_from({From::side, {{1.5, 0, 0}, -90, 0, 9}}, 1), kViewWidth, kViewHeight);
   double least = 1e9;
   for (int time = 0; time < 5; ++time) {
     const auto start = std::chrono::steady_clock::now();
@@ -131,7 +125,7 @@ TEST(Picking, AMillionTrianglesTakeLittleTime) {
 }
 
 TEST(Hands, AHingeFollowsTheMouse) {
-  Scene scene(arm());
+  HandScene scene(arm());
   const glm::dvec3 held(1.2, -0.15, 0.05);
   const glm::dvec3 start = scene.of_joint(2, held);
   scene.grab(scene.pixel(start));
@@ -156,7 +150,7 @@ TEST(Hands, AHingeFollowsTheMouse) {
 }
 
 TEST(Hands, SeveralFreedomsFollowTheMouseToo) {
-  Scene scene(arm(), false, "free");
+  HandScene scene(arm(), false, "free");
   scene.eye.orbit.turn = -60;
   scene.eye.orbit.height = 25;
   scene.tool("none");
@@ -171,7 +165,7 @@ TEST(Hands, SeveralFreedomsFollowTheMouseToo) {
 }
 
 TEST(Hands, StopAtLimits) {
-  Scene scene(arm(), false, "free");
+  HandScene scene(arm(), false, "free");
   scene.tool("none");
   const glm::dvec2 from = scene.pixel(scene.of_joint(0, {1.2, -0.2, 0}));
   scene.grab(from);
@@ -187,7 +181,7 @@ TEST(Hands, StopAtLimits) {
 }
 
 TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
-  Scene scene(arm());
+  HandScene scene(arm());
   scene.grab(scene.pixel({1.55, -0.3, 0.25}));
   ASSERT_EQ(scene.last("grabbed")["joint"], "plate");
   scene.drag(scene.pixel({1.4, -0.3, 0.7}));
@@ -196,7 +190,7 @@ TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
 }
 
 TEST(Hands, ShiftIsFine) {
-  Scene scene(arm());
+  HandScene scene(arm());
   const glm::dvec3 held(1.2, -0.15, 0);
   const glm::dvec2 from = scene.pixel(scene.of_joint(2, held));
   scene.grab(from);
@@ -206,7 +200,7 @@ TEST(Hands, ShiftIsFine) {
 
 // The side view looks along y, the axis of the hinge, from -y: it faces away.
 TEST(Hands, ARingIsTurnedSeveralTimes) {
-  Scene scene(arm());
+  HandScene scene(arm());
   scene.take(R"({"do": "select", "actor": "a", "joint": "lower"})");
   scene.tool("turn");
   const glm::dvec2 center = scene.pixel(scene.state().joints[2].place);
@@ -225,7 +219,7 @@ TEST(Hands, ARingIsTurnedSeveralTimes) {
 }
 
 TEST(Hands, RingsShowLimitsAndAngles) {
-  Scene scene(arm());
+  HandScene scene(arm());
   scene.take(R"({"do": "select", "actor": "a", "joint": "upper"})");
   scene.tool("turn");
   EXPECT_TRUE(scene.shapes("ring:x").empty()) << "it cannot turn about x";
@@ -242,7 +236,7 @@ TEST(Hands, RingsShowLimitsAndAngles) {
 }
 
 TEST(Hands, ArrowsMoveActorsOfFilms) {
-  Scene scene(arm());
+  HandScene scene(arm());
   scene.project.set_frame(4);
   scene.take(R"({"do": "select", "actor": "a", "joint": null})");
   scene.tool("move");
@@ -262,7 +256,7 @@ TEST(Hands, ArrowsMoveActorsOfFilms) {
 }
 
 TEST(Hands, ArrowsMoveJointsOfModels) {
-  Scene scene(arm(), true);
+  HandScene scene(arm(), true);
   scene.take(R"({"do": "select", "joint": "lower"})");
   scene.tool("move");
   const glm::dvec3 from = scene.state().joints[2].place;
@@ -278,7 +272,7 @@ TEST(Hands, ArrowsMoveJointsOfModels) {
 }
 
 TEST(Hands, BoxesArePulledByTheirFaces) {
-  Scene scene(arm(), true);
+  HandScene scene(arm(), true);
   scene.take(R"({"do": "select", "joint": "lower"})");
   scene.tool("box");
   const glm::dvec3 face = scene.of_joint(2, {1.5, 0, 0});
@@ -293,7 +287,7 @@ TEST(Hands, BoxesArePulledByTheirFaces) {
 }
 
 TEST(Hands, ControlPointsFollowTheMouse) {
-  Scene scene(arm(), true);
+  HandScene scene(arm(), true);
   scene.take(R"({"do": "select", "joint": "lower"})");
   scene.tool("points");
   const auto& joint = scene.project.film().models[0].joints[2];
@@ -323,7 +317,7 @@ TEST(Hands, ControlPointsFollowTheMouse) {
 }
 
 TEST(Hands, OnePageAtATime) {
-  Scene scene(arm());
+  HandScene scene(arm());
   scene.grab(scene.pixel({2.4, -0.15, 0}));
   scene.drag(scene.pixel({2.4, -0.15, 0.3}));
   scene.stage->take(
@@ -335,7 +329,7 @@ TEST(Hands, OnePageAtATime) {
 }
 
 TEST(Hands, LetGoOfWhatOthersChange) {
-  Scene scene(arm());
+  HandScene scene(arm());
   const glm::dvec2 begin = scene.pixel({2.4, -0.15, 0.1});
   scene.grab(begin);
   scene.drag(begin + glm::dvec2(0, 9));

@@ -17,12 +17,6 @@
 namespace mars::studio {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 480;
-
-std::string xy(const glm::dvec2& pixel) {
-  return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
-}
-
 animator::Film lit(const std::string& lens = R"("fov": 40)") {
   return film::film_of(R"({"frames": 9, "size": [640, 320],
     "camera": {"eye": [2, -4, 2], "at": [2, 0, 2], )" +
@@ -33,18 +27,18 @@ animator::Film lit(const std::string& lens = R"("fov": 40)") {
     "actors": [{"name": "box", "model": "box"}]})");
 }
 
-struct Scene : OnStage {
-  explicit Scene(bool rig = false, const animator::Film& film = lit()) : OnStage(film) {
+struct MarkScene : OnStage {
+  explicit MarkScene(bool rig = false, const animator::Film& film = lit()) : OnStage(film) {
     project.rig_lights_ = rig;
     show();
   }
 
   void show(const std::string& from = "free", const std::string& more = R"(, "marks": true, "handles": "move")") {
-    view(0, kWidth, kHeight, from, "stick",
+    view(0, kViewWidth, kViewHeight, from, "stick",
          R"(, "orbit": {"center": [1, 0, 2], "turn": -70, "height": 15, "distance": 14})" + more);
     paint();
   }
-  Screen screen() const { return {camera_from({From::free, {{1, 0, 2}, -70, 15, 14}}, 1), kWidth, kHeight}; }
+  Screen screen() const { return {camera_from({From::free, {{1, 0, 2}, -70, 15, 14}}, 1), kViewWidth, kViewHeight}; }
   glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
   std::set<std::string> ids() const {
     std::set<std::string> ids;
@@ -76,7 +70,7 @@ glm::dvec3 vector_of(const Json& list) {
 }
 
 TEST(Marks, AreSeenWhereTheyStand) {
-  Scene scene;
+  MarkScene scene;
   EXPECT_EQ(scene.ids(), (std::set<std::string>{"camera", "light/1", "light/2", "light/3"}));
   const double up = 4 * std::tan(20 * 3.14159265358979 / 180);
   for (const double x : {-2.0, 2.0})
@@ -90,22 +84,22 @@ TEST(Marks, AreSeenWhereTheyStand) {
 }
 
 TEST(Marks, AreNotSeenFromTheFilmsCameraNorOfModelsNorOfRigLights) {
-  Scene scene;
+  MarkScene scene;
   scene.show("camera");
   EXPECT_TRUE(scene.pictures.back().handles.empty());
   scene.show("free", "");
   EXPECT_TRUE(scene.pictures.back().handles.empty()) << "nobody asked";
-  Scene rig(true);
+  MarkScene rig(true);
   EXPECT_EQ(rig.ids(), (std::set<std::string>{"camera"}));
   EXPECT_ANY_THROW(rig.select("light/1"));
   OnStage model(model_film("human.json"), true);
-  model.view(0, kWidth, kHeight, "front", "stick", R"(, "marks": true)");
+  model.view(0, kViewWidth, kViewHeight, "front", "stick", R"(, "marks": true)");
   EXPECT_TRUE(model.pictures.back().handles.empty());
   EXPECT_ANY_THROW(model.take(R"({"do": "select", "thing": "camera"})"));
 }
 
 TEST(Marks, AreSelectedByMessageAndByTheirSymbols) {
-  Scene scene;
+  MarkScene scene;
   scene.select("light/3");
   EXPECT_EQ(scene.last("selected"),
             Json::parse(R"({"is": "selected", "actor": null, "joint": null, "thing": "light/3"})"));
@@ -130,7 +124,7 @@ TEST(Marks, AreSelectedByMessageAndByTheirSymbols) {
 }
 
 TEST(Marks, TheCameraIsPulled) {
-  Scene scene;
+  MarkScene scene;
   scene.select("camera");
   const glm::dvec3 eye(2, -4, 2), at(2, 0, 2), by = 0.5 * scene.screen().right() - 0.25 * scene.screen().up();
   scene.pull(eye, eye + by);
@@ -159,10 +153,10 @@ TEST(Marks, ACameraThatGoesAlongIsPulledByItsOffset) {
   const auto pulled_to = [&](bool aim, const glm::dvec3& by) {
     OnStage scene(film::film_of(kFilm));
     scene.project.set_frame(2);
-    scene.view(0, kWidth, kHeight, "free", "stick",
+    scene.view(0, kViewWidth, kViewHeight, "free", "stick",
                R"(, "orbit": {"center": [3, 0, 2], "turn": -70, "height": 15, "distance": 14}, "marks": true)");
     scene.take(R"({"do": "select", "thing": "camera"})");
-    const Screen screen(camera_from({From::free, {{3, 0, 2}, -70, 15, 14}}, 1), kWidth, kHeight);
+    const Screen screen(camera_from({From::free, {{3, 0, 2}, -70, 15, 14}}, 1), kViewWidth, kViewHeight);
     const glm::dvec3 from = aim ? animator::at_at(scene.project.film(), 2) : animator::eye_at(scene.project.film(), 2);
     scene.take(R"({"do": "grab", "view": 0, )" + xy(screen.pixel_of(from).value()) + "}");
     scene.take(R"({"do": "drag", )" + xy(screen.pixel_of(from + by).value()) + "}");
@@ -175,13 +169,13 @@ TEST(Marks, ACameraThatGoesAlongIsPulledByItsOffset) {
     const glm::dvec3 later = aim ? animator::at_at(film, 8) : animator::eye_at(film, 8);
     EXPECT_NEAR(later.x - now.x, 6, 1e-6) << "it goes along as before";
   };
-  const Screen screen(camera_from({From::free, {{3, 0, 2}, -70, 15, 14}}, 1), kWidth, kHeight);
+  const Screen screen(camera_from({From::free, {{3, 0, 2}, -70, 15, 14}}, 1), kViewWidth, kViewHeight);
   pulled_to(false, 0.5 * screen.right() - 0.25 * screen.up());
   pulled_to(true, 0.5 * screen.up());
 }
 
 TEST(Marks, TheCameraIsZoomedByItsUpperEdge) {
-  Scene scene;
+  MarkScene scene;
   scene.select("camera");
   const double degree = 3.14159265358979 / 180, half = 4 * std::tan(20 * degree), wider = 4 * std::tan(30 * degree);
   scene.pull({2, 0, 2 + half}, {2, 0, 2 + wider});
@@ -192,7 +186,7 @@ TEST(Marks, TheCameraIsZoomedByItsUpperEdge) {
 
 // What it shows is a box, moved by its lens shift, whose height is pulled at its upper edge.
 TEST(Marks, AnOrthographicCameraShowsABox) {
-  Scene scene(false, lit(R"("projection": "orthographic", "height": 3, "shift": [0.25, 0])"));
+  MarkScene scene(false, lit(R"("projection": "orthographic", "height": 3, "shift": [0.25, 0])"));
   for (const double x : {-1.5, 4.5})
     for (const double z : {0.5, 3.5})
       for (const double y : {-4.0, 0.0})
@@ -209,7 +203,7 @@ TEST(Marks, AnOrthographicCameraShowsABox) {
 }
 
 TEST(Marks, LightsArePulled) {
-  Scene scene;
+  MarkScene scene;
   const glm::dvec3 by = 0.5 * scene.screen().right() + 0.3 * scene.screen().up();
   scene.pull({-2, 0, 3}, glm::dvec3(-2, 0, 3) + by);
   EXPECT_LT(glm::length(scene.project.film().lights[1].vector[0].value - glm::dvec3(-2, 0, 3) - by), 1e-5);
@@ -227,7 +221,7 @@ TEST(Marks, LightsArePulled) {
 }
 
 TEST(Marks, WhatHasNoKeysIsChangedForTheWholeFilm) {
-  Scene scene;
+  MarkScene scene;
   scene.project.has_keys_ = false;
   scene.pull({-2, 0, 3}, {-2, 0, 3.5});
   scene.take(R"({"do": "drop"})");
@@ -237,7 +231,7 @@ TEST(Marks, WhatHasNoKeysIsChangedForTheWholeFilm) {
 }
 
 TEST(Marks, TheCameraGoesWhereAFreeViewLooksFrom) {
-  Scene scene;
+  MarkScene scene;
   scene.take(R"({"do": "put_camera", "view": 0})");
   const Json effect = effect_of(scene.project.commits.at(0));
   EXPECT_EQ(effect["of"], "camera");
@@ -257,7 +251,7 @@ TEST(Marks, TheCameraGoesWhereAFreeViewLooksFrom) {
 }
 
 TEST(Marks, ASpotsConeOpensAndItsInnerOneAlong) {
-  Scene scene;
+  MarkScene scene;
   scene.select("light/3");
   const Json point = scene.shapes("light/3:cone").at(0)["points"][0];
   const glm::dvec2 at(point[0].get<double>(), point[1].get<double>()), middle = scene.pixel({4, 0, 1});
@@ -271,7 +265,7 @@ TEST(Marks, ASpotsConeOpensAndItsInnerOneAlong) {
 }
 
 TEST(Marks, ASunKeepsItsDistanceAndChangesItsDirection) {
-  Scene scene;
+  MarkScene scene;
   Moments moments(scene.project);
   moments.renew();
   const MarkState sun = state_of(scene.project, moments, Mark{0});

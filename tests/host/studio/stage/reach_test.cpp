@@ -18,16 +18,10 @@
 namespace mars::studio {
 namespace {
 
-constexpr int kWidth = 640, kHeight = 480;
-
-std::string xy(const glm::dvec2& pixel) {
-  return "\"x\": " + std::to_string(pixel.x) + ", \"y\": " + std::to_string(pixel.y);
-}
-
 // A person, seen from the left and somewhat from before, in the tool `reach`.
-struct Scene : OnStage {
-  explicit Scene(bool model = false) : OnStage(model_film("human.json"), model) {
-    view(0, kWidth, kHeight, "free", "stick",
+struct ReachScene : OnStage {
+  explicit ReachScene(bool model = false) : OnStage(model_film("human.json"), model) {
+    view(0, kViewWidth, kViewHeight, "free", "stick",
          R"(, "orbit": {"center": [0, 0, 2.5], "turn": 60, "height": 10, "distance": 14}, "handles": "reach")");
   }
 
@@ -38,7 +32,7 @@ struct Scene : OnStage {
     while (model().joints.at(number).name != name) ++number;
     return number;
   }
-  Screen screen() const { return {camera_from({From::free, {{0, 0, 2.5}, 60, 10, 14}}, 1), kWidth, kHeight}; }
+  Screen screen() const { return {camera_from({From::free, {{0, 0, 2.5}, 60, 10, 14}}, 1), kViewWidth, kViewHeight}; }
   glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
   animator::ActorState state() const { return animator::state_at(project.film(), 0, project.frame()); }
   glm::dvec3 end(const std::string& name) const {
@@ -87,7 +81,7 @@ struct Scene : OnStage {
 };
 
 TEST(Reaching, AHandIsPulledByItsWholeArm) {
-  Scene scene;
+  ReachScene scene;
   const glm::dvec2 from = scene.pixel(scene.end("left-hand")) - glm::dvec2(0, 3);
   const Held held = scene.under(from);
   ASSERT_EQ(held.joint, scene.joint("left-hand"));
@@ -116,7 +110,7 @@ TEST(Reaching, AHandIsPulledByItsWholeArm) {
 }
 
 TEST(Reaching, TheHandMayGoBeyondAndComeBack) {
-  Scene scene;
+  ReachScene scene;
   const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-hand")].place);
   const animator::ActorState before = scene.state();
   scene.grab(from);
@@ -134,7 +128,7 @@ TEST(Reaching, TheHandMayGoBeyondAndComeBack) {
 }
 
 TEST(Reaching, PinnedFeetStayWhileThePelvisIsPulled) {
-  Scene scene;
+  ReachScene scene;
   scene.select("pelvis");
   scene.pin("left-foot");
   scene.pin("right-foot");
@@ -163,7 +157,7 @@ TEST(Reaching, PinnedFeetStayWhileThePelvisIsPulled) {
 }
 
 TEST(Reaching, AnUnpinnedFootGoesAlong) {
-  Scene scene;
+  ReachScene scene;
   scene.pin("left-foot");
   scene.pin("left-foot", false);
   EXPECT_TRUE(scene.last("pinned")["pins"].empty());
@@ -182,7 +176,7 @@ TEST(Reaching, AnUnpinnedFootGoesAlong) {
 }
 
 TEST(Reaching, APinnedHandStaysWhileTheActorMoves) {
-  Scene scene;
+  ReachScene scene;
   scene.pin("left-hand");
   scene.select("");
   const modeler::Axes hand = scene.state().joints[scene.joint("left-hand")];
@@ -196,7 +190,7 @@ TEST(Reaching, APinnedHandStaysWhileTheActorMoves) {
 }
 
 TEST(Reaching, AFootIsPulledByItsLegAndBendsTheKnee) {
-  Scene scene;
+  ReachScene scene;
   const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-toes")].place);
   scene.grab(from);
   const std::string grabbed = scene.last("grabbed")["joint"];
@@ -212,7 +206,7 @@ TEST(Reaching, AFootIsPulledByItsLegAndBendsTheKnee) {
 }
 
 TEST(Reaching, OfAModelLimbsFollowAndNothingElse) {
-  Scene scene(true);
+  ReachScene scene(true);
   const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-foot")].place);
   scene.grab(from);
   scene.drag(from + glm::dvec2(10, -20));
@@ -227,13 +221,13 @@ TEST(Reaching, OfAModelLimbsFollowAndNothingElse) {
 }
 
 TEST(Reaching, WhatIsNoJointIsNotPinned) {
-  Scene scene;
+  ReachScene scene;
   EXPECT_ANY_THROW(scene.pin("left-wing"));
   EXPECT_ANY_THROW(scene.take(R"({"do": "pin", "actor": "nobody", "joint": "left-hand", "pinned": true})"));
 }
 
 TEST(Reaching, APullTakesLittleTime) {
-  Scene scene;
+  ReachScene scene;
   scene.pin("left-foot");
   scene.pin("right-foot");
   const glm::dvec2 from = scene.pixel(scene.state().joints[scene.joint("left-hand")].place);

@@ -10,6 +10,7 @@
 #include "host/studio/web/message_rate.h"
 #include "host/studio/web/page_files.h"
 #include "host/studio/web/token.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::web {
 namespace {
@@ -95,11 +96,10 @@ class PageFiles : public testing::Test {
     fs::create_directory_symlink("..", folder_ / "page/up");
     fs::create_directory(folder_ / "page/folder.js");
   }
-  ~PageFiles() override { fs::remove_all(folder_); }
 
   Answer get(std::string_view path, std::string_view known = "") { return answer_file(folder_ / "page", path, known); }
 
-  fs::path folder_ = fs::path(testing::TempDir()) / ("page_files_" + make_token());
+  const test::TemporaryFolder folder_;
 };
 
 TEST_F(PageFiles, AreServed) {

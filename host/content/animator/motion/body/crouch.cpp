@@ -8,11 +8,11 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kLean = 100;  // degrees of the trunk at the lowest
-constexpr double kThigh = 84;  // degrees of the thighs from upright, and
-constexpr double kShin = 24;   // of the shins, the other way
-constexpr double kHang = 0.7;  // of the lean, that arms hang forward
-constexpr const char* kRemedy = "let it stand nearer, or widen the joint's limits in its model";
+constexpr double kCrouchLean = 100;  // degrees of the trunk at the lowest
+constexpr double kThigh = 84;        // degrees of the thighs from upright, and
+constexpr double kShin = 24;         // of the shins, the other way
+constexpr double kHang = 0.7;        // of the lean, that arms hang forward
+constexpr const char* kCrouchRemedy = "let it stand nearer, or widen the joint's limits in its model";
 
 struct Share {
   modeler::Trunk part;
@@ -47,7 +47,7 @@ glm::dvec3 Crouch::lowered(double depth) const {
 void Crouch::take(double depth, double twist, Posture& posture) const {
   Stance stance = stance_;
   stance.pelvis += canonical_turn(0, 0, stance.heading) * lowered(depth);
-  const double lean = kLean * depth;
+  const double lean = kCrouchLean * depth;
   stance.tilt.y += 0.5 * lean;
   const auto turn = [&](std::size_t joint, const glm::dmat3& before, const glm::dmat3& after) {
     if (joint == modeler::kNone) return;
@@ -59,7 +59,7 @@ void Crouch::take(double depth, double twist, Posture& posture) const {
     turn(body_.find(share.part), glm::dmat3(1), canonical_turn(0, share.lean * lean, share.twist * twist));
   for (const modeler::Side side : kSides)
     turn(body_.find(modeler::Limb::shoulder, side), canonical_turn(0, -kHang * lean, 0), glm::dmat3(1));
-  take_stance(body_, stance, posture, where_, kRemedy);
+  take_stance(body_, stance, posture, where_, kCrouchRemedy);
 }
 
 }  // namespace mars::motion

@@ -16,9 +16,9 @@ namespace {
 
 // Degrees from straight, of a finger's joints and a thumb's; and of the thumb's first one from how it is drawn.
 constexpr double kMostFinger[] = {85, 100, 75}, kMostThumb[] = {40, 60, 75};
-constexpr double kThumbBack = -20, kBack = -5;    // how far the first joint opens
-constexpr double kSame = 0.94, kSameThumb = 0.8;  // cosines: an axis of a joint is the hinge
-constexpr int kPads = 4;                          // of a phalanx
+constexpr double kThumbBack = -20, kFingerBack = -5;  // how far the first joint opens
+constexpr double kSame = 0.94, kSameThumb = 0.8;      // cosines: an axis of a joint is the hinge
+constexpr int kPads = 4;                              // of a phalanx
 
 // Signed, in degrees, about the hinge.
 double bend_between(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& hinge) {
@@ -127,7 +127,7 @@ class FindingDigits {
       Phalanx phalanx = hinged(joint, hinge, is_thumb ? kSameThumb : kSame);
       const double drawn = std::max(0.0, bend_between(before, along, phalanx.hinge));
       const double most = (is_thumb ? kMostThumb : kMostFinger)[number < 2 ? number : 2];
-      const double back = number > 0 ? 0 : is_thumb ? kThumbBack : kBack;
+      const double back = number > 0 ? 0 : is_thumb ? kThumbBack : kFingerBack;
       phalanx.open = std::max(phalanx.open, back - drawn);
       phalanx.shut = std::max(phalanx.open, std::min(phalanx.shut, most - drawn));
       const bool is_last = number + 1 == row.joints.size();

@@ -12,9 +12,9 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kLegTolerance = 0.03, kTolerance = 0.3;  // degrees
-constexpr double kPlaceTolerance = 2e-4;                  // of the leg's length
-constexpr int kLongest = 48;                              // frames from key to key at most
+constexpr double kLegTolerance = 0.03, kJointTolerance = 0.3;  // degrees
+constexpr double kGlideTolerance = 2e-4;                       // of the leg's length
+constexpr int kMostFramesBetweenKeys = 48;                     // frames from key to key at most
 
 double rounded_to(double value, double digit) { return animator::rounded(std::round(value / digit) * digit); }
 
@@ -100,7 +100,7 @@ void choose_keys(std::size_t count, const std::function<bool(std::size_t, std::s
         if (strays(from, last, at)) return false;
       return true;
     };
-    while (to + 1 < count && to + 1 - from <= kLongest && holds(to + 1)) ++to;
+    while (to + 1 < count && to + 1 - from <= kMostFramesBetweenKeys && holds(to + 1)) ++to;
     put(to);
     from = to;
   }
@@ -137,12 +137,12 @@ void begin_at(const modeler::Model& model, const Posture& start, double frames, 
 std::vector<animator::ActorKey> keys_of(const Body& body, std::span<const std::size_t> joints,
                                         std::span<const Posture> postures, std::uint32_t first) {
   Keying keying(postures, first);
-  keying.add_places(place_digit(body), kPlaceTolerance * body.leg_length());
+  keying.add_places(place_digit(body), kGlideTolerance * body.leg_length());
   keying.add_turns(
       modeler::Joint{}, kLegTolerance, [](const Posture& p) { return within_a_turn(p.turn); },
       [](animator::ActorKey& key, const glm::dvec3& turn) { key.turn = turn; });
   for (const std::size_t joint : joints)
-    keying.add_joint(*body.model, joint, carries_legs(body, joint) ? kLegTolerance : kTolerance);
+    keying.add_joint(*body.model, joint, carries_legs(body, joint) ? kLegTolerance : kJointTolerance);
   return keying.take();
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 // Beside a pull's one: how much a pin's place and turn count, a pull's turn, and what is drawn to rest; angles times
 // the figure's size. So far apart that what comes later costs what comes before it less than is seen.
-constexpr double kPin = 3, kTurn = 1e-2;
+constexpr double kPullPinWeight = 3, kPullTurnWeight = 1e-2;
 constexpr double kLimb = 1e-2, kEnd = 3e-2, kTrunk = 1e-1, kActor = 1e-1;
 constexpr double kSmallStep = 1e-7;  // radians, and units
 constexpr double kExactly = 0.03;
@@ -100,7 +100,8 @@ class Pulling {
       : model_(model), rest_(rest), chain_(chain), pull_(pull), size_(size_of(model)) {
     for (const std::size_t joint : chain.trunk) add(joint, kTrunk);
     add_limb(chain);
-    goals_.push_back({.joint = chain.end, .place = within_reach(), .turn = pull.turn, .turn_weight = kTurn * size_});
+    goals_.push_back(
+        {.joint = chain.end, .place = within_reach(), .turn = pull.turn, .turn_weight = kPullTurnWeight * size_});
     goals_.back().held = pull.held;
     for (const std::size_t pin : pins)
       if (moves(pin)) hold(pin);
@@ -140,8 +141,9 @@ class Pulling {
     add_limb(limb);
     held_.insert(held_.end(), limb.joints.begin(), limb.joints.end());
     const modeler::Axes frame = frame_in(model_, rest_, pin);
-    goals_.push_back({.joint = pin, .place = frame.place, .turn = frame.turn, .turn_weight = 0.2 * kPin * size_});
-    goals_.back().place_weight = kPin;
+    goals_.push_back(
+        {.joint = pin, .place = frame.place, .turn = frame.turn, .turn_weight = 0.2 * kPullPinWeight * size_});
+    goals_.back().place_weight = kPullPinWeight;
   }
 
   std::size_t top() const {

@@ -10,7 +10,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr int kRounds = 80;
+constexpr int kReachRounds = 80;
 constexpr modeler::Limits kAnywhere{-1e300, 1e300};
 
 // A number of the pose that may change, and the line in the world about which it turns; or, where `joint` is kNone,
@@ -221,7 +221,7 @@ std::vector<double> step_within(const modeler::Model& model, Posture& posture, c
 void reach(const modeler::Model& model, Posture& posture, const Search& search, std::span<const Goal> goals) {
   double damping = search.rest ? 1e-3 : 1e-4;
   Equations now(model, posture, search, goals);
-  for (int round = 0; round < kRounds && damping < 1e8; ++round) {
+  for (int round = 0; round < kReachRounds && damping < 1e8; ++round) {
     const std::vector<double> step = step_within(model, posture, now, damping);
     Posture tried = posture;
     double longest = 0;

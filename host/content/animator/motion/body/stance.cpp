@@ -21,7 +21,7 @@ constexpr double kKneeShare = 0.7;     // of the foot's heading against the pelv
 constexpr double kAtLimit = 1e-3;      // degrees
 constexpr double kZigzag = 5;          // degrees that a knee is drawn bent
 constexpr double kBentElbow = 0.2;     // sine of the angle from which an elbow is drawn bent
-constexpr double kMostTwist = 120;     // degrees that an upper arm turns about itself to have such a forearm in front
+constexpr double kMostArmTwist = 120;  // degrees that an upper arm turns about itself to have such a forearm in front
 
 glm::dmat3 heading_turn(double degrees) { return modeler::rotation_by_degrees({0, 0, 1}, degrees); }
 
@@ -51,7 +51,7 @@ Hanging hanging_of(const Body& body, modeler::Side side) {
   if (wrist == modeler::kNone) return hanging;
   const glm::dvec3 forearm = hanging.turn * bone(elbow, wrist);
   const double out = std::hypot(forearm.x, forearm.y), aside = glm::degrees(std::atan2(forearm.y, forearm.x));
-  if (out < kBentElbow || std::abs(aside) > kMostTwist) return hanging;
+  if (out < kBentElbow || std::abs(aside) > kMostArmTwist) return hanging;
   hanging.bent = glm::degrees(std::atan2(out, -forearm.z));
   hanging.turn = heading_turn(-aside) * hanging.turn;
   return hanging;

@@ -10,7 +10,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr int kRounds = 30;
+constexpr int kStiffLegRounds = 30;
 constexpr double kDamping = 1e-6;  // of the leg squared: no way to where it helps nothing
 
 // From the ankles to the hips, as the pelvis' limits let it stand.
@@ -25,7 +25,7 @@ std::array<glm::dvec3, 2> legs_of(const Body& body, const Stance& stance, Postur
 // The way along `line`, level, and up (z) on which both legs get their lengths: Gauss and Newton, damped.
 glm::dvec3 to_both(const Body& body, const std::array<glm::dvec3, 2>& legs, const glm::dvec3& line) {
   double along = 0, up = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kStiffLegRounds; ++round) {
     double aa = 0, au = 0, uu = 0, a = 0, u = 0;
     for (const modeler::Side side : kSides) {
       const glm::dvec3 leg = legs[index_of(side)] + along * line + glm::dvec3(0, 0, up);

@@ -62,6 +62,7 @@ class SurfaceOf {
 
   void add_skin() {
     const modeler::Segment& segment = *joint().segment;
+    if (std::ranges::none_of(segment.bones, counts_, &modeler::Bone::joint)) return;
     std::vector<wire::Matrix> matrices;
     for (const modeler::Bone& bone : segment.bones)
       matrices.push_back(modeler::bone_matrix(frame_of_(bone.joint), bone, joint()));

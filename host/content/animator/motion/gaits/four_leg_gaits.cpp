@@ -30,49 +30,49 @@ constexpr Tread tread_of(double stride, double off, double strike, std::span<con
           .bends = {bends, 7 * off, 0}};
 }
 
-constexpr FourLegGait kWalk{.hind = {0, 0.5},
-                            .fore = {0.25, 0.75},
-                            .duty = 0.64,
-                            .stride = 1,
-                            .pace = 1,
-                            .hind_tread = tread_of(0.7, 28, -10, kLowHindPitches, kHindRises, kLowBends),
-                            .fore_tread = tread_of(0.75, 28, -10, kLowForePitches, kForeRises, kLowBends),
-                            .sink = 0.02,
-                            .bounce = {0.008, 0.36, 2},
-                            .rock = {0.8, 0.1, 2},
-                            .flex = {0, 0, 1},
-                            .nod = {4, 0.3, 2}};
+constexpr FourLegGait kFourLegWalk{.hind = {0, 0.5},
+                                   .fore = {0.25, 0.75},
+                                   .duty = 0.64,
+                                   .stride = 1,
+                                   .pace = 1,
+                                   .hind_tread = tread_of(0.7, 28, -10, kLowHindPitches, kHindRises, kLowBends),
+                                   .fore_tread = tread_of(0.75, 28, -10, kLowForePitches, kForeRises, kLowBends),
+                                   .sink = 0.02,
+                                   .bounce = {0.008, 0.36, 2},
+                                   .rock = {0.8, 0.1, 2},
+                                   .flex = {0, 0, 1},
+                                   .nod = {4, 0.3, 2}};
 
-constexpr FourLegGait kTrot{.hind = {0, 0.5},
-                            .fore = {0.5, 0},
-                            .duty = 0.42,
-                            .stride = 1.65,
-                            .pace = 1.6,
-                            .hind_tread = tread_of(1.25, 40, -14, kHindPitches, kHighHindRises, kBends),
-                            .fore_tread = tread_of(1.25, 40, -14, kForePitches, kHighForeRises, kBends),
-                            .sink = 0.03,
-                            .bounce = {0.022, 0.46, 2},
-                            .rock = {0.5, 0.2, 2},
-                            .flex = {0, 0, 1},
-                            .nod = {1.5, 0.4, 2}};
+constexpr FourLegGait kFourLegTrot{.hind = {0, 0.5},
+                                   .fore = {0.5, 0},
+                                   .duty = 0.42,
+                                   .stride = 1.65,
+                                   .pace = 1.6,
+                                   .hind_tread = tread_of(1.25, 40, -14, kHindPitches, kHighHindRises, kBends),
+                                   .fore_tread = tread_of(1.25, 40, -14, kForePitches, kHighForeRises, kBends),
+                                   .sink = 0.03,
+                                   .bounce = {0.022, 0.46, 2},
+                                   .rock = {0.5, 0.2, 2},
+                                   .flex = {0, 0, 1},
+                                   .nod = {1.5, 0.4, 2}};
 
-constexpr FourLegGait kGallop{.hind = {0, 0.12},
-                              .fore = {0.36, 0.5},
-                              .duty = 0.27,
-                              .stride = 2.8,
-                              .pace = 2,
-                              .hind_tread = tread_of(2, 40, -14, kHindPitches, kHighHindRises, kBends),
-                              .fore_tread = tread_of(2, 40, -14, kForePitches, kHighForeRises, kBends),
-                              .sink = 0.05,
-                              .bounce = {0.035, 0.9, 1},
-                              .rock = {3, 0.62, 1},
-                              .flex = {7, 0.9, 1},
-                              .nod = {7, 0.55, 1}};
+constexpr FourLegGait kFourLegGallop{.hind = {0, 0.12},
+                                     .fore = {0.36, 0.5},
+                                     .duty = 0.27,
+                                     .stride = 2.8,
+                                     .pace = 2,
+                                     .hind_tread = tread_of(2, 40, -14, kHindPitches, kHighHindRises, kBends),
+                                     .fore_tread = tread_of(2, 40, -14, kForePitches, kHighForeRises, kBends),
+                                     .sink = 0.05,
+                                     .bounce = {0.035, 0.9, 1},
+                                     .rock = {3, 0.62, 1},
+                                     .flex = {7, 0.9, 1},
+                                     .nod = {7, 0.55, 1}};
 
 }  // namespace
 
-const FourLegGait& four_leg_walk() { return kWalk; }
-const FourLegGait& four_leg_trot() { return kTrot; }
-const FourLegGait& four_leg_gallop() { return kGallop; }
+const FourLegGait& four_leg_walk() { return kFourLegWalk; }
+const FourLegGait& four_leg_trot() { return kFourLegTrot; }
+const FourLegGait& four_leg_gallop() { return kFourLegGallop; }
 
 }  // namespace mars::motion

@@ -13,18 +13,18 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kReach = 0.993;                // of a leg that stands: never quite straight
-constexpr double kLead = 0.05;                  // of a stride, before the first heel rises
-constexpr double kSetOut = 0.1;                 // after which the trunk sets out
-constexpr double kSettle = 0.3;                 // and after the last has landed
-constexpr double kSetsOut = 1.5, kStops = 1.5;  // strides
-constexpr int kRounds = 3;  // of lowering hips and shoulders, each of which moves the other a little
-constexpr const char* kRemedy = "take shorter strides or steps, or widen the joint's limits in its model";
+constexpr double kFourLegReach = 0.993;                        // of a leg that stands: never quite straight
+constexpr double kFourLegLead = 0.05;                          // of a stride, before the first heel rises
+constexpr double kSetOut = 0.1;                                // after which the trunk sets out
+constexpr double kFourLegSettle = 0.3;                         // and after the last has landed
+constexpr double kStridesToSpeed = 1.5, kStridesToStop = 1.5;  // strides
+constexpr int kLoweringRounds = 3;  // of lowering hips and shoulders, each of which moves the other a little
+constexpr const char* kFourLegRemedy = "take shorter strides or steps, or widen the joint's limits in its model";
 
 const std::array<Leg, 2>& legs_of(const Body& body, bool fore) { return fore ? *body.forelegs : body.legs; }
 
 // Strides until the first foot leaves.
-double lead_of(const FourLegGait& gait) { return kLead + gait.hind_tread.rise * gait.duty; }
+double lead_of(const FourLegGait& gait) { return kFourLegLead + gait.hind_tread.rise * gait.duty; }
 
 double first_landing(const FourLegGait& gait, double period) {
   return std::round((lead_of(gait) + 1 - gait.duty) * period);
@@ -46,7 +46,7 @@ class Strider {
         floor_(body.floor_under(start)),
         lands_(first_landing(gait, period)),
         stops_(lands_ + (errand.strides + latest(gait)) * period),
-        advance_(errand.path.length, kSetOut * period, stops_, kSetsOut * period, kStops * period) {
+        advance_(errand.path.length, kSetOut * period, stops_, kStridesToSpeed * period, kStridesToStop * period) {
     measure();
     for (const bool fore : {false, true})
       for (const modeler::Side side : kSides) plan(fore, side);
@@ -57,7 +57,7 @@ class Strider {
     std::vector<Stance> all;
     for (int frame = 0; frame <= int(four_leg_frames(gait_, errand_.strides, period_)); ++frame)
       all.push_back(at(frame));
-    for (int round = 0; round < kRounds; ++round) lower(all);
+    for (int round = 0; round < kLoweringRounds; ++round) lower(all);
     return all;
   }
 
@@ -175,7 +175,7 @@ class Strider {
       if (!foot.stands) continue;
       const Leg& leg = legs_of(body_, fore)[index_of(side)];
       const glm::dvec3 way = frame_in(*body_.model, posture, leg.hip).place - foot.ankle;
-      const double reach = kReach * leg.length(), across = std::min(std::hypot(way.x, way.y), reach);
+      const double reach = kFourLegReach * leg.length(), across = std::min(std::hypot(way.x, way.y), reach);
       most = std::max(most, way.z - std::sqrt(reach * reach - across * across));
     }
     return most;
@@ -219,11 +219,11 @@ class Strider {
 
 double lost_strides(const FourLegGait& gait) {
   const double lasts = lead_of(gait) + 1 - gait.duty + latest(gait) - kSetOut;
-  return (kSetsOut + kStops) / 2 - lasts;
+  return (kStridesToSpeed + kStridesToStop) / 2 - lasts;
 }
 
 double four_leg_frames(const FourLegGait& gait, int strides, double period) {
-  return std::ceil(first_landing(gait, period) + (strides + latest(gait) + kSettle) * period);
+  return std::ceil(first_landing(gait, period) + (strides + latest(gait) + kFourLegSettle) * period);
 }
 
 std::vector<Posture> four_leg_postures(const Body& body, const Posture& start, const FourLegGait& gait,
@@ -232,7 +232,8 @@ std::vector<Posture> four_leg_postures(const Body& body, const Posture& start, c
   std::vector<Posture> postures;
   Posture posture = start;
   for (const Stance& stance : Strider(body, start, gait, style, errand, period).stances()) {
-    take_stance(body, stance, posture, doing + " at frame " + std::to_string(first_frame + postures.size()), kRemedy);
+    take_stance(body, stance, posture, doing + " at frame " + std::to_string(first_frame + postures.size()),
+                kFourLegRemedy);
     postures.push_back(posture);
   }
   return postures;

@@ -17,7 +17,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kReach = 0.9992;         // of a leg that stands: never quite straight
+constexpr double kStandReach = 0.9992;    // of a leg that stands: never quite straight
 constexpr double kSwingReach = 0.988;     // of one that swings: its knee does not snap
 constexpr double kBeginsTooHigh = 0.004;  // of the leg: more than a foot that stands may miss
 constexpr double kStiffRise = 0.05;       // of legs without knees, as the pelvis rolls
@@ -58,7 +58,7 @@ class Walker {
     for (const modeler::Side side : kSides) {
       const Foot& foot = stance.feet[index_of(side)];
       const glm::dvec3 hip = hip_of(stance, side), way = hip - foot.ankle;
-      const double reach = (foot.stands ? kReach : kSwingReach) * body_.leg(side).length();
+      const double reach = (foot.stands ? kStandReach : kSwingReach) * body_.leg(side).length();
       const double across = std::min(std::hypot(way.x, way.y), reach);
       most = std::max(most, way.z - std::sqrt(reach * reach - across * across));
     }

@@ -12,12 +12,12 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kApart = 0.67;     // of the hips' width: feet of a walk
-constexpr double kToeOut = 6;       // degrees
-constexpr double kTurnAtOnce = 50;  // degrees between two feet
-constexpr double kLeastAtOnce = 6;  // where the joints' limits want less
-constexpr int kBowTries = 4;        // each with twice as many steps
-constexpr double kOnTheWay = 25;    // degrees that the first step can turn
+constexpr double kApart = 0.67;          // of the hips' width: feet of a walk
+constexpr double kToeOut = 6;            // degrees
+constexpr double kTurnBetweenFeet = 50;  // degrees between two feet
+constexpr double kLeastAtOnce = 6;       // where the joints' limits want less
+constexpr int kBowTries = 4;             // each with twice as many steps
+constexpr double kFirstStepTurn = 25;    // degrees that the first step can turn
 
 constexpr const char* kStepRemedy = "take shorter steps (step-length), or widen the joint's limits in its model";
 constexpr const char* kBowRemedy =
@@ -139,8 +139,8 @@ void Going::go(const Gait& gait, const char* remedy) {
 }
 
 void Going::turn(double by) {
-  require_possible(turn_gait(body_, now(), by, kTurnAtOnce, period_), kTurnRemedy);
-  for (double at_once = kTurnAtOnce;; at_once /= 2) try {
+  require_possible(turn_gait(body_, now(), by, kTurnBetweenFeet, period_), kTurnRemedy);
+  for (double at_once = kTurnBetweenFeet;; at_once /= 2) try {
       return go(turn_gait(body_, now(), by, at_once, period_), kTurnRemedy);
     } catch (const Failure&) {
       if (at_once / 2 < kLeastAtOnce) throw;
@@ -182,7 +182,7 @@ std::optional<Way> way_of(const Scene& scene, Going& going, double ordinary, dou
   const auto to = arguments.vector("to");
   if (to) {
     const double by = bearing(stand_of(going.now()), *to);
-    if (std::abs(by) > kOnTheWay) going.turn(by);
+    if (std::abs(by) > kFirstStepTurn) going.turn(by);
     far = glm::distance(stand_of(going.now()).middle, glm::dvec2(to->x, to->y));
     if (*far < 0.05 * going.body().leg_length()) return std::nullopt;
   }

@@ -20,12 +20,13 @@ constexpr double kHeight = 0.35;                   // of the leg, that the hips 
 constexpr double kCrouch = 0.26;                   // of the leg, before it leaves
 constexpr double kAbsorb = 0.22;                   // and after it has landed
 constexpr double kGather = 0.45, kRecover = 0.55;  // seconds, for a leg of that man
-constexpr double kReach = 0.997;                   // of a leg that leaves or lands: it is not straight
+constexpr double kJumpReach = 0.997;               // of a leg that leaves or lands: it is not straight
 constexpr double kOffPitch = 42, kOffTip = 24, kLandPitch = 14;  // degrees of the soles
 constexpr double kPush = 0.55;                                   // of the time of the push, after which the heels rise
 constexpr double kShins = 20;                                    // degrees that shins lean before the hips go back
-constexpr double kLean = 40;                                     // degrees of the trunk in the crouch
-constexpr const char* kRemedy = "jump lower or less far (height, distance), or widen the joint's limits in its model";
+constexpr double kJumpLean = 40;                                 // degrees of the trunk in the crouch
+constexpr const char* kJumpRemedy =
+    "jump lower or less far (height, distance), or widen the joint's limits in its model";
 
 // When what happens, and where the pelvis then is: constant acceleration in the push and in the landing, free
 // fall between.
@@ -63,7 +64,7 @@ class Jumper {
     std::vector<Posture> postures;
     Posture posture = start_;
     for (int frame = 0; frame <= int(plan_.end); ++frame) {
-      take_stance(body_, at(frame), posture, "jump at frame " + std::to_string(scene_.at + frame), kRemedy);
+      take_stance(body_, at(frame), posture, "jump at frame " + std::to_string(scene_.at + frame), kJumpRemedy);
       postures.push_back(posture);
     }
     begin_at(*body_.model, start_, plan_.gather, postures);
@@ -82,7 +83,7 @@ class Jumper {
     const Leg& leg = body_.legs[0];
     const glm::dvec3 pivot = ball ? leg.sole.ball : glm::dvec3(0);
     const double shift = (pivot - canonical_turn(0, pitch, 0) * pivot).x;
-    const double reach = kReach * leg.length(), across = std::min(std::abs(along - shift), 0.9 * reach);
+    const double reach = kJumpReach * leg.length(), across = std::min(std::abs(along - shift), 0.9 * reach);
     const double upright = body_.height - leg.sole.height(0, 0) - leg.length();  // of the pelvis over the hips
     return upright + leg.sole.height(pitch, leg.toes == modeler::kNone ? 0 : -pitch) +
            std::sqrt(reach * reach - across * across);
@@ -207,7 +208,7 @@ class Jumper {
     stance.pelvis = {landed.x + off.x + along.x, landed.y + off.y + along.y, floor_ + pelvis.y};
     const double crouched = smooth(0, f.gather, time) * (1 - smooth(f.gather, f.off, time)),
                  sunk = smooth(f.land - 2, f.down, time) * (1 - smooth(f.down, f.end, time));
-    const double lean = kLean * (crouched + 0.8 * sunk);
+    const double lean = kJumpLean * (crouched + 0.8 * sunk);
     stance.tilt = (1 - smooth(0, f.gather, time)) * from_.tilt + glm::dvec3(0, 0.6 * lean, 0);
     add_trunk(stance, lean);
     straighten_between(body_, stance);

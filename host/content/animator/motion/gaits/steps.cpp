@@ -8,16 +8,16 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kPace = 2;            // steps a second
-constexpr double kBehind = 0.526;      // of a step: the pelvis is behind the foot that lands
-constexpr double kFirstBehind = 0.44;  // the first foot, from standing
-constexpr double kNothing = 0.2;       // degrees
+constexpr double kStepPace = 2;            // steps a second
+constexpr double kPelvisBehind = 0.526;    // of a step: the pelvis is behind the foot that lands
+constexpr double kFirstBehind = 0.44;      // the first foot, from standing
+constexpr double kLeastTurnOfSteps = 0.2;  // degrees
 
 Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps, double period, modeler::Side first,
                const Style& style) {
   const Planner planner(body, walking(), period, kWalkLead);
   const double length = path.length / steps, speed = length / period;
-  const double behind = body.stiff() ? 0.5 : kBehind;
+  const double behind = body.stiff() ? 0.5 : kPelvisBehind;
   Gait gait{{}, {}, period, length / body.leg_length(), style};
   gait.way.push_back({0, {from.pelvis.x, from.pelvis.y}, from.heading, {0, 0}});
   modeler::Side side = first;
@@ -39,7 +39,7 @@ Gait walk_gait(const Body& body, const Stance& from, const Path& path, int steps
 
 Motion walk(const Scene& scene) {
   if (has_four_legs(scene.model())) return walk_on_four(scene);
-  Going going(scene, "walk", kPace);
+  Going going(scene, "walk", kStepPace);
   const auto way = way_of(scene, going, walking().tread.stride * going.body().leg_length());
   if (!way) return going.motion();
   go_along(going, *way, [&](int steps) {
@@ -52,10 +52,10 @@ Motion walk(const Scene& scene) {
 Motion turn(const Scene& scene) {
   if (has_four_legs(scene.model())) return turn_on_four(scene);
   refuse_both(scene.arguments, "by", "to");
-  Going going(scene, "turn", kPace);
+  Going going(scene, "turn", kStepPace);
   const auto to = scene.arguments.vector("to");
   const double by = to ? bearing(stand_of(going.now()), *to) : scene.arguments.number("by", 90, {-3600, 3600});
-  if (std::abs(by) > kNothing) going.turn(by);
+  if (std::abs(by) > kLeastTurnOfSteps) going.turn(by);
   return going.motion();
 }
 

@@ -12,16 +12,16 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kOnTheWay = 12;    // degrees that the first stride can turn
-constexpr double kTurnAtOnce = 30;  // degrees a stride
-constexpr double kNothing = 0.2;    // degrees
+constexpr double kFirstStrideTurn = 12;      // degrees that the first stride can turn
+constexpr double kTurnAStride = 30;          // degrees a stride
+constexpr double kLeastTurnOfStrides = 0.2;  // degrees
 
 // What the parameters are called that count: a walk's steps are half strides.
 struct Counted {
   std::string_view count, length;
   int in_a_stride;
 };
-constexpr Counted kSteps{"steps", "step-length", 2}, kStrides{"strides", "stride-length", 1};
+constexpr Counted kCountedSteps{"steps", "step-length", 2}, kCountedStrides{"strides", "stride-length", 1};
 
 class Striding {
  public:
@@ -50,7 +50,7 @@ class Striding {
   }
 
   void turn(double by) {
-    const int strides = std::max(1, int(std::ceil(std::abs(by) / kTurnAtOnce)));
+    const int strides = std::max(1, int(std::ceil(std::abs(by) / kTurnAStride)));
     go(four_leg_walk(), {{stand(), 0, 0}, by, strides});
   }
 
@@ -63,7 +63,7 @@ class Striding {
     const auto to = arguments.vector("to");
     if (to) {
       const double by = bearing(stand(), *to);
-      if (std::abs(by) > kOnTheWay) turn(by);
+      if (std::abs(by) > kFirstStrideTurn) turn(by);
       far = glm::distance(stand().middle, glm::dvec2(to->x, to->y));
       if (*far < 0.05 * body_.height) return;
     }
@@ -121,16 +121,16 @@ Motion gone(const Scene& scene, const FourLegGait& gait, const Counted& counted)
 
 }  // namespace
 
-Motion walk_on_four(const Scene& scene) { return gone(scene, four_leg_walk(), kSteps); }
-Motion trot(const Scene& scene) { return gone(scene, four_leg_trot(), kStrides); }
-Motion gallop(const Scene& scene) { return gone(scene, four_leg_gallop(), kStrides); }
+Motion walk_on_four(const Scene& scene) { return gone(scene, four_leg_walk(), kCountedSteps); }
+Motion trot(const Scene& scene) { return gone(scene, four_leg_trot(), kCountedStrides); }
+Motion gallop(const Scene& scene) { return gone(scene, four_leg_gallop(), kCountedStrides); }
 
 Motion turn_on_four(const Scene& scene) {
   refuse_both(scene.arguments, "by", "to");
-  Striding striding(scene, four_leg_walk(), kSteps);
+  Striding striding(scene, four_leg_walk(), kCountedSteps);
   const auto to = scene.arguments.vector("to");
   const double by = to ? bearing(striding.stand(), *to) : scene.arguments.number("by", 90, {-3600, 3600});
-  if (std::abs(by) > kNothing) striding.turn(by);
+  if (std::abs(by) > kLeastTurnOfStrides) striding.turn(by);
   return striding.motion();
 }
 

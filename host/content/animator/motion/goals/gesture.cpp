@@ -20,7 +20,7 @@ namespace {
 constexpr double kEnough = 1;                   // degrees that a nod may fall short
 constexpr double kOff = 0.1;                    // of the arm's length, that a waving hand may be off its place
 constexpr double kRaise = 0.5;                  // seconds
-constexpr double kTolerance = 0.1;              // degrees between keys
+constexpr double kGestureTolerance = 0.1;       // degrees between keys
 constexpr double kInward = -14, kOutward = 34;  // degrees of the forearm from upright
 
 // Postures of some joints at some moments. The numbers of a pose go straight from moment to moment, so that
@@ -70,7 +70,7 @@ class Gesture {
     choose_keys(
         numbers.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
-          return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at], kTolerance);
+          return strays(joint, numbers[a], numbers[b], double(at - a) / double(b - a), numbers[at], kGestureTolerance);
         },
         [&](std::size_t at) { keys[at].pose[joint.name] = numbers[at]; });
   }

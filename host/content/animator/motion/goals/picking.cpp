@@ -24,22 +24,22 @@
 namespace mars::motion {
 namespace {
 
-constexpr Parameter kSeconds{
+constexpr Parameter kPickSeconds{
     "seconds", "S", "down and up again; default: 1.2, more if the figure bends down or has fingers to close", "2.5"};
 constexpr Parameter kPick[] = {{"what", "ACTOR", "the actor that the figure picks up; required", "ball"},
                                {"hand", "SIDE", "left or right; default: the nearer one", "left"},
-                               kSeconds};
+                               kPickSeconds};
 constexpr Parameter kPut[] = {{"to", "X Y Z", "the place at which the thing stands or lies; required", "1.2 -0.4 2.1"},
                               {"what", "ACTOR", "the thing; default: what the hand holds", "ball"},
-                              kSeconds};
+                              kPickSeconds};
 
 constexpr double kSeconds0 = 1.2, kSecondsDown = 1.25;  // and so much more for the lowest
 constexpr double kSecondsGrip = 0.25;                   // while fingers close or open and the hand waits
 constexpr int kDepths = 24;                             // tries from upright to the lowest
 constexpr double kStretch = 0.93;                       // of the arm, that it likes to be stretched to
-constexpr double kFar = 0.002;                          // of the arm: what is nearer is there
-constexpr double kClear = 0.35;                         // of the arm, from where a hand goes straight to the thing
-constexpr double kMostTwist = 50;                       // degrees
+constexpr double kFarFromThing = 0.002;                 // of the arm: what is nearer is there
+constexpr double kClearOfThing = 0.35;                  // of the arm, from where a hand goes straight to the thing
+constexpr double kMostHandTwist = 50;                   // degrees
 constexpr double kRelaxing = 0.4;                       // of the way back, from where fingers are as they hang
 constexpr double kOpening[] = {0.15, 0.75};             // of the way to the thing: meanwhile fingers stretch
 
@@ -98,7 +98,7 @@ class Handling {
   double twist() const {
     const glm::dvec3 way = glm::transpose(facing()) * (to_ - frame_in(*body_.model, start_, body_.pelvis).place);
     const double bearing = glm::degrees(std::atan2(way.y, std::max(way.x, 0.3 * hand_.length())));
-    return std::clamp(bearing + sign_of(hand_.side) * -12, -kMostTwist, kMostTwist);
+    return std::clamp(bearing + sign_of(hand_.side) * -12, -kMostHandTwist, kMostHandTwist);
   }
 
   // The palm comes from above to what is low, from outside to what is as high as the chest.
@@ -136,7 +136,7 @@ class Handling {
       contact_ = posture;
       const double left = pull(*body_.model, posture, contact_, chain_, to(to_, posture));
       least = std::min(least, left);
-      if (left > kFar * hand_.length()) continue;
+      if (left > kFarFromThing * hand_.length()) continue;
       crouched_ = posture;
       return;
     }
@@ -146,7 +146,7 @@ class Handling {
   bool reaches_from(const Posture& posture, double depth) {
     depth_ = depth;
     crouched_ = contact_ = posture;
-    return pull(*body_.model, posture, contact_, chain_, to(to_, posture)) <= kFar * hand_.length();
+    return pull(*body_.model, posture, contact_, chain_, to(to_, posture)) <= kFarFromThing * hand_.length();
   }
 
   [[noreturn]] void fail(double missing) const {
@@ -194,7 +194,7 @@ class Handling {
     if (weight <= 0) return;
     const modeler::Axes frame = frame_in(*body_.model, posture, hand_.end);
     const glm::dvec3 is = frame.turn * held_ + frame.place;
-    const double clear = kClear * hand_.length() * smooth(0, 0.8, left);
+    const double clear = kClearOfThing * hand_.length() * smooth(0, 0.8, left);
     const glm::dvec3 from = glm::normalize(side_of_thing(contact_) + glm::dvec3(0, 0, 0.7));
     const glm::dvec3 place = glm::mix(is, to_ + clear * from, weight);
     const Posture rest = posture;

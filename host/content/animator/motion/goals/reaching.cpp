@@ -16,7 +16,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr Parameter kReach[] = {
+constexpr Parameter kReachParameters[] = {
     {"limb", "LIMB", "left-hand, right-hand, left-foot, right-foot, head, or a joint; default: right-hand",
      "left-foot"},
     {"to", "X Y Z", "where the palm, the ankle or the joint goes", "1.2 -0.4 3"},
@@ -30,8 +30,8 @@ constexpr Parameter kPlant[] = {
     {"limb", "LIMB", "left-foot, right-foot, feet, left-hand, right-hand, hands, or a joint; default: feet", "hands"},
     {"seconds", "S", "default: up to the figure's last key", "2"}};
 
-constexpr double kFar = 0.003;       // of the chain's length: what is nearer is there
-constexpr double kTolerance = 0.01;  // degrees between keys
+constexpr double kFarFromTarget = 0.003;  // of the chain's length: what is nearer is there
+constexpr double kReachTolerance = 0.01;  // degrees between keys
 
 using modeler::Limb;
 using modeler::Side;
@@ -125,7 +125,7 @@ void keep(const Scene& scene, const Planted& planted, std::uint32_t frame, Postu
     goals[0].turn.reset();
     reach(scene.model(), posture, planted.chain.joints, goals);
   }
-  if (off() > kFar * length)
+  if (off() > kFarFromTarget * length)
     throw Failure("'" + scene.model().joints[planted.chain.end].name + "' cannot stay where it is: it is " +
                       rounded_text(off()) + " away at frame " + std::to_string(frame),
                   scene.where(), "plant it for less long, or key the rest of the figure nearer to it");
@@ -133,7 +133,7 @@ void keep(const Scene& scene, const Planted& planted, std::uint32_t frame, Postu
 
 }  // namespace
 
-std::span<const Parameter> reach_parameters() { return kReach; }
+std::span<const Parameter> reach_parameters() { return kReachParameters; }
 std::span<const Parameter> plant_parameters() { return kPlant; }
 
 Motion reach(const Scene& scene) {
@@ -150,7 +150,7 @@ Motion reach(const Scene& scene) {
   std::erase(pins, end);
   Posture there = start;
   const double left = pull(model, start, there, chain, pulled, pins);
-  if (left > kFar * length_of(model, chain))
+  if (left > kFarFromTarget * length_of(model, chain))
     throw Failure("'" + model.joints[end].name + "' cannot reach " + document::shown(animator::rounded(pulled.to.x)) +
                       " " + document::shown(animator::rounded(pulled.to.y)) + " " +
                       document::shown(animator::rounded(pulled.to.z)) + ": " + rounded_text(left) + " are missing",
@@ -169,7 +169,7 @@ Motion reach(const Scene& scene) {
   }
   std::vector<std::size_t> joints = chain.trunk;
   joints.insert(joints.end(), chain.joints.begin(), chain.joints.end());
-  if (!chain.moves_actor) return {keys_of_joints(model, joints, postures, scene.at, kTolerance), last};
+  if (!chain.moves_actor) return {keys_of_joints(model, joints, postures, scene.at, kReachTolerance), last};
   for (const std::size_t pin : pins)
     for (const std::size_t joint : chain_of(model, pin).joints) joints.push_back(joint);
   return {keys_of(body_of(model, scene.actor.name, "reach"), joints, postures, scene.at), last};
@@ -198,7 +198,7 @@ Motion plant(const Scene& scene) {
     for (const Planted& each : planted) keep(scene, each, frame, posture);
     postures.push_back(std::move(posture));
   }
-  return {keys_of_joints(model, joints, postures, scene.at, kTolerance), last};
+  return {keys_of_joints(model, joints, postures, scene.at, kReachTolerance), last};
 }
 
 }  // namespace mars::motion

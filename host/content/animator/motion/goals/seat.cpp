@@ -17,14 +17,14 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kOnSeat = 0.45;             // of the thigh, from the seat's edge to the hips
-constexpr double kBeside = 0.2;              // of the leg, from the hips to the seat's end
-constexpr double kNear = 0.12;               // of the leg: so near to where it should stand it stays
-constexpr double kAskew = 12;                // degrees
-constexpr double kRest = 0.15;               // of the leg: what rises so far above a seat is a back or an arm
-constexpr double kLow = 0.15, kHigh = 0.95;  // of the leg: heights of seats
-constexpr double kClear = 0.12;              // of the leg, between a way and the seat
-constexpr double kAround = 0.4;              // of the leg, from the seat's corners to who walks around it
+constexpr double kOnSeat = 0.45;         // of the thigh, from the seat's edge to the hips
+constexpr double kBesideHips = 0.2;      // of the leg, from the hips to the seat's end
+constexpr double kNear = 0.12;           // of the leg: so near to where it should stand it stays
+constexpr double kSeatAskew = 12;        // degrees
+constexpr double kBackAboveSeat = 0.15;  // of the leg: what rises so far above a seat is a back or an arm
+constexpr double kLowestSeat = 0.15, kHighestSeat = 0.95;  // of the leg: heights of seats
+constexpr double kClearOfSeat = 0.12;                      // of the leg, between a way and the seat
+constexpr double kAround = 0.4;                            // of the leg, from the seat's corners to who walks around it
 
 glm::dvec2 flat(const glm::dvec3& v) { return {v.x, v.y}; }
 
@@ -101,7 +101,7 @@ class Approach {
     const int deep = side.x != 0 ? 0 : 1;
     const double inset = std::min(seat_.half[deep], kOnSeat * body_.legs[0].thigh);
     glm::dvec2 hips = side * (seat_.half[deep] - inset);
-    const double free = std::max(0.0, seat_.half[1 - deep] - kBeside * leg);
+    const double free = std::max(0.0, seat_.half[1 - deep] - kBesideHips * leg);
     hips[1 - deep] = std::clamp(seat_.local(stands_)[1 - deep], -free, free);
     const glm::dvec2 looks = seat_.world(side) - seat_.middle;
     return {seat_.world(hips + back_ * side), looks, seat_.world(hips)};
@@ -114,7 +114,7 @@ class Approach {
     for (std::size_t joint = 0; joint < model.joints.size(); ++joint) {
       if (joint == target.joint || !model.joints[joint].segment) continue;
       const Block part = block_of(scene_, {target.actor, joint}, scene_.at);
-      if (part.top() < seat_.top + kRest * body_.leg_length()) continue;
+      if (part.top() < seat_.top + kBackAboveSeat * body_.leg_length()) continue;
       const glm::dvec2 at = seat_.local(flat(part.middle)) / seat_.half;
       if (glm::dot(at, side) > 0.6) return true;
     }
@@ -122,7 +122,7 @@ class Approach {
   }
 
   bool is_free(const glm::dvec2& from, const glm::dvec2& to) const {
-    const glm::dvec2 half = seat_.half + kClear * body_.leg_length();
+    const glm::dvec2 half = seat_.half + kClearOfSeat * body_.leg_length();
     for (int i = 0; i <= 64; ++i) {
       const glm::dvec2 at = seat_.local(from + i / 64.0 * (to - from));
       if (std::abs(at.x) < half.x && std::abs(at.y) < half.y) return false;
@@ -182,7 +182,7 @@ Target seat_part(const Scene& scene, const Target& target, const Body& body) {
     if (!model.joints[joint].segment) continue;
     const Seat seat = seat_of(block_of(scene, {target.actor, joint}, scene.at));
     const double height = (seat.top - floor) / body.leg_length();
-    if (height < kLow || height > kHigh || seat.half.x * seat.half.y <= most) continue;
+    if (height < kLowestSeat || height > kHighestSeat || seat.half.x * seat.half.y <= most) continue;
     most = seat.half.x * seat.half.y;
     best.joint = joint;
   }
@@ -210,7 +210,7 @@ Motion sit_on(const Scene& scene, const Target& named) {
   if (way.size() > 1 || glm::distance(feet(), way.back()) > kNear * body.leg_length())
     for (const glm::dvec2& to : way) rehearsal.perform(walk, {{"to", numbers(to)}});
   const double heading = glm::degrees(std::atan2(spot.looks.y, spot.looks.x));
-  if (std::abs(std::remainder(heading - stance().heading, 360.0)) > kAskew)
+  if (std::abs(std::remainder(heading - stance().heading, 360.0)) > kSeatAskew)
     rehearsal.perform(turn, {{"to", numbers(feet() + 100 * body.leg_length() * spot.looks)}});
   const double looking = glm::radians(stance().heading);
   const double back = glm::dot(feet() - spot.hips, glm::dvec2(std::cos(looking), std::sin(looking)));

@@ -18,11 +18,11 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kSeconds = 1.6;
-constexpr double kLean = 44;        // degrees of the trunk, so that its weight stays over the feet
-constexpr double kHandAlong = 0.6;  // of the thigh, where a wrist lies
-constexpr double kHandOut = 0.6;    // of the way from above the hip to below the shoulder
-constexpr double kAskew = 10;       // degrees: see Foot
+constexpr double kSittingSeconds = 1.6;
+constexpr double kSittingLean = 44;   // degrees of the trunk, so that its weight stays over the feet
+constexpr double kHandAlong = 0.6;    // of the thigh, where a wrist lies
+constexpr double kHandOut = 0.6;      // of the way from above the hip to below the shoulder
+constexpr double kSittingAskew = 10;  // degrees: see Foot
 constexpr const char* kWiden = "widen the joint's limits in its model";
 constexpr const char* kSitRemedy = "choose another seat-height, or widen the joint's limits in its model";
 
@@ -65,10 +65,10 @@ class Chair {
         from_(stance_of(body_, start_)),
         floor_(body_.floor_under(start_)),
         frames_(static_cast<int>(
-            std::max(2.0, std::round(scene.frames(scene.arguments.number("seconds", kSeconds, {0.1, 60})))))) {
+            std::max(2.0, std::round(scene.frames(scene.arguments.number("seconds", kSittingSeconds, {0.1, 60})))))) {
     if (body_.stiff()) needed(body_, modeler::Limb::knee, modeler::Side::left, command);
     drop_ = from_.pelvis.z - hip_middle().z;
-    for (Foot& foot : from_.feet) foot.askew = kAskew;
+    for (Foot& foot : from_.feet) foot.askew = kSittingAskew;
     scene.last_after(frames_);
   }
 
@@ -88,7 +88,7 @@ class Chair {
       Stance stance = from_;
       stance.pelvis = glm::mix(from_.pelvis, pelvis, glm::dvec3(across(u), across(u), down(u)));
       if (frame > 0) stance.pelvis.z = std::min(stance.pelvis.z, highest(stance));
-      const double lean = kLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
+      const double lean = kSittingLean * smooth(0, leans_at, u) * (1 - smooth(leans_at, 1, u));
       stance.tilt = from_.tilt * (1 - u) + glm::dvec3(0, 0.45 * lean, 0);
       bend(stance, lean);
       straighten_between(body_, stance);

@@ -38,13 +38,14 @@ constexpr Parameter kToss[] = {
     {"friction", "N", "part of the speed along the floor that an impact removes, 0 to 1; default: 0.1", "0.3"},
     {"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"}};
 
-constexpr double kBack = 0.55, kThrough = 0.3, kRest = 0.8;  // seconds: back, past the release, and to rest
-constexpr double kBackward = 42;                             // degrees that the arm swings back
-constexpr double kFollow = 32;                               // degrees beyond the release
-constexpr double kDip = 0.16;                                // of the deepest bend, while it swings
-constexpr double kBeside = 50;                               // degrees from where the figure looks
-constexpr double kQuickest = 0.12;                           // seconds of the swing forward
-constexpr double kLetGo = 0.1;                               // seconds in which fingers stretch
+constexpr double kSwingBack = 0.55, kSwingThrough = 0.3,
+                 kSwingRest = 0.8;        // seconds: back, past the release, and to rest
+constexpr double kBackward = 42;          // degrees that the arm swings back
+constexpr double kFollow = 32;            // degrees beyond the release
+constexpr double kDip = 0.16;             // of the deepest bend, while it swings
+constexpr double kMostThrowBearing = 50;  // degrees from where the figure looks
+constexpr double kQuickest = 0.12;        // seconds of the swing forward
+constexpr double kLetGo = 0.1;            // seconds in which fingers stretch
 
 struct Throw {
   glm::dvec3 velocity;
@@ -224,13 +225,13 @@ Motion toss(const Scene& scene) {
   const double bearing =
       std::remainder(glm::degrees(std::atan2(released.velocity.y, released.velocity.x)) - swing.heading(), 360.0);
   const bool level = std::hypot(released.velocity.x, released.velocity.y) > 1e-6;
-  if (level && std::abs(bearing) > kBeside)
+  if (level && std::abs(bearing) > kMostThrowBearing)
     throw Failure("would toss " + text(std::abs(bearing)) + " degrees to its " + (bearing > 0 ? "left" : "right"),
                   scene.where(),
                   "let it turn there first: turn " +
                       (to ? "to " + text(target.x) + " " + text(target.y) : "by " + text(bearing)));
   const auto frames = [&](double seconds) { return std::max(2, static_cast<int>(std::round(scene.frames(seconds)))); };
-  ArmSwing::Shape shape{frames(kBack), 0, frames(kThrough), frames(kRest), 40, level ? bearing : 0};
+  ArmSwing::Shape shape{frames(kSwingBack), 0, frames(kSwingThrough), frames(kSwingRest), 40, level ? bearing : 0};
   std::vector<Posture> postures;
   // The arm lets go where it moves as the thing shall fly, and about as fast.
   for (int round = 0; round < 3; ++round) {

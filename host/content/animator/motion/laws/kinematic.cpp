@@ -15,10 +15,10 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kPlaceTolerance = 5e-4;  // of the flight's extent
-constexpr double kTurnTolerance = 0.05;   // degrees
-constexpr double kLow = 1e-3;             // of the first height: bounces that nobody sees
-constexpr double kLongest = 600;          // seconds
+constexpr double kFlightTolerance = 5e-4;  // of the flight's extent
+constexpr double kTurnTolerance = 0.05;    // degrees
+constexpr double kLowestBounce = 1e-3;     // of the first height: bounces that nobody sees
+constexpr double kLongestFlight = 600;     // seconds
 
 std::uint32_t frames_of(const Scene& scene, double seconds) {
   return scene.last_after(std::max(std::ceil(scene.frames(seconds) - 1e-9), 1.0)) - scene.at;
@@ -42,7 +42,7 @@ class Sampled {
       low = glm::min(low, places.back());
       high = glm::max(high, places.back());
     }
-    const double tolerance = kPlaceTolerance * glm::distance(low, high);
+    const double tolerance = kFlightTolerance * glm::distance(low, high);
     choose_keys(
         places.size(),
         [&](std::size_t a, std::size_t b, std::size_t at) {
@@ -98,7 +98,7 @@ Motion fling(const Scene& scene) {
   const Arguments& arguments = scene.arguments;
   const Flight flight({posture_of(scene).place, arguments.vector("velocity").value_or(glm::dvec3(0)),
                        arguments.vector("acceleration").value_or(glm::dvec3(0, 0, -gravity_in(scene.film)))});
-  return flown(scene, flight, arguments.number("seconds", 1, {0.001, kLongest}));
+  return flown(scene, flight, arguments.number("seconds", 1, {0.001, kLongestFlight}));
 }
 
 Motion bounce(const Scene& scene) {
@@ -118,10 +118,11 @@ Motion bounce(const Scene& scene) {
                      "start higher, or lower the floor");
   const double up = std::max(0.0, launch.velocity.z);
   const double top = std::max(1e-9, height + up * up / (2 * -launch.acceleration.z));
-  const Flight flight(launch, floor, kLow * top);
+  const Flight flight(launch, floor, kLowestBounce * top);
   const bool slides = glm::length(flight.arcs().back().launch.velocity) > 0;
   const double rest = slides ? flight.rest() + 1 : flight.rest();
-  Motion motion = flown(scene, flight, arguments.number("seconds", std::min(rest, kLongest), {0.001, kLongest}));
+  Motion motion =
+      flown(scene, flight, arguments.number("seconds", std::min(rest, kLongestFlight), {0.001, kLongestFlight}));
   const auto hundredths = [](double value) { return document::shown(std::round(value * 100) / 100); };
   motion.report = "first on the floor after " + hundredths(flight.arcs()[1].time) + " s, " +
                   (slides ? "bounces for " : "at rest after ") + hundredths(flight.rest()) + " s";
@@ -133,7 +134,7 @@ Motion spin(const Scene& scene) {
   constexpr std::string_view names[] = {"x", "y", "z"};
   glm::dvec3 axis(0);
   axis[static_cast<int>(arguments.choice("axis", 2, names))] = 1;
-  const double seconds = arguments.number("seconds", 2, {0.001, kLongest});
+  const double seconds = arguments.number("seconds", 2, {0.001, kLongestFlight});
   const double degrees = arguments.number("degrees", 360, {-1e6, 1e6});
   const std::uint32_t frames = frames_of(scene, seconds);
   Sampled sampled(scene, frames);
@@ -147,7 +148,7 @@ Motion go(const Scene& scene) {
   if (!to) scene.arguments.refuse("to", "is missing", "say where: to 2 0 0");
   constexpr std::string_view names[] = {"linear", "in", "out", "both"};
   constexpr animator::Ease eases[] = {animator::kLinear, animator::kIn, animator::kOut, animator::kBoth};
-  const std::uint32_t last = scene.at + frames_of(scene, scene.arguments.number("seconds", 1, {0.001, kLongest}));
+  const std::uint32_t last = scene.at + frames_of(scene, scene.arguments.number("seconds", 1, {0.001, kLongestFlight}));
   animator::ActorKey from, there;
   from.frame = scene.at;
   there.frame = last;

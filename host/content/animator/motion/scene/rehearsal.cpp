@@ -10,20 +10,20 @@ namespace {
 
 // The channel's later keys make way for the new ones.
 template <typename Value>
-void put(animator::Channel<Value>& channel, std::uint32_t frame, const Value& value, animator::Ease ease) {
+void put_key(animator::Channel<Value>& channel, std::uint32_t frame, const Value& value, animator::Ease ease) {
   std::erase_if(channel, [&](const animator::Key<Value>& key) { return key.frame >= frame; });
   channel.push_back({frame, value, ease});
 }
 
-void put(const animator::Film& film, const std::vector<animator::ActorKey>& keys, animator::Actor& actor) {
+void put_keys(const animator::Film& film, const std::vector<animator::ActorKey>& keys, animator::Actor& actor) {
   const std::vector<modeler::Joint>& joints = film.models[actor.model].joints;
   for (const animator::ActorKey& key : keys) {
     const animator::Ease ease = key.ease.value_or(animator::kLinear);
-    if (key.place) put(actor.motion.place, key.frame, *key.place, ease);
-    if (key.turn) put(actor.motion.turn, key.frame, *key.turn, ease);
+    if (key.place) put_key(actor.motion.place, key.frame, *key.place, ease);
+    if (key.turn) put_key(actor.motion.turn, key.frame, *key.turn, ease);
     for (std::size_t joint = 0; joint < joints.size(); ++joint)
       if (const auto found = key.pose.find(joints[joint].name); found != key.pose.end())
-        put(actor.motion.pose[joint], key.frame, found->second, ease);
+        put_key(actor.motion.pose[joint], key.frame, found->second, ease);
   }
 }
 
@@ -57,7 +57,7 @@ void Rehearsal::perform(Motion (*action)(const Scene& scene), Arguments::Values 
 }
 
 void Rehearsal::add(const Motion& motion) {
-  put(film_, motion.keys, film_.actors[actor_]);
+  put_keys(film_, motion.keys, film_.actors[actor_]);
   motion_.keys.insert(motion_.keys.end(), motion.keys.begin(), motion.keys.end());
   motion_.report = motion.report;
   motion_.last = std::max(motion_.last, motion.last);
@@ -78,8 +78,8 @@ void Rehearsal::attach(std::size_t actor, std::uint32_t frame, const animator::A
     const std::size_t by = index_of(film_.actors, to.actor);
     carrier = {by, joint_of(film_.model_of(by), to.joint), to.place, to.turn};
   }
-  put(film_, {key}, other);
-  put(other.attach, frame, carrier, animator::kLinear);
+  put_keys(film_, {key}, other);
+  put_key(other.attach, frame, carrier, animator::kLinear);
   motion_.others[other.name].push_back(std::move(key));
 }
 
@@ -87,7 +87,7 @@ void Rehearsal::perform(std::size_t actor, std::uint32_t frame, Motion (*action)
                         Arguments::Values values) {
   const Arguments arguments(std::move(values), begin_.arguments.where());
   const Motion motion = action({film_, film_.actors[actor], frame, arguments, begin_.action});
-  put(film_, motion.keys, film_.actors[actor]);
+  put_keys(film_, motion.keys, film_.actors[actor]);
   auto& keys = motion_.others[film_.actors[actor].name];
   keys.insert(keys.end(), motion.keys.begin(), motion.keys.end());
 }

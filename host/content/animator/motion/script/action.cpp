@@ -17,14 +17,13 @@
 #include "host/content/animator/motion/gaits/striding.h"
 #include "host/content/animator/motion/goals/tossing.h"
 #include "host/content/animator/motion/script/resting.h"
-#include "host/content/animator/reading/read_film.h"
 
 namespace mars::motion {
 namespace {
 
-constexpr Parameter kPace{"pace", "N", "steps a second; default: 2", "1.5"};
+constexpr Parameter kStepRate{"pace", "N", "steps a second; default: 2", "1.5"};
 
-constexpr Parameter kSteps{
+constexpr Parameter kStepCount{
     "steps", "N",
     "number of steps, without the last that brings the feet together; default: 4, or as the distance needs", "6"};
 constexpr Parameter kDistance{"distance", "D", "length of the way; default: from the number of steps", "3.5"};
@@ -36,79 +35,79 @@ constexpr Parameter kArmSwing{"arm-swing", "N", "times the ordinary one, 0 to 3;
 constexpr Parameter kUpAndDown{"bounce", "N", "up and down, times the ordinary one, 0 to 3; default: 1", "0.5"};
 constexpr Parameter kKneeLift{"knee-lift", "N", "of the swinging leg, times the ordinary one, 0 to 3; default: 1",
                               "1.4"};
-constexpr Parameter kLean{"lean", "DEGREES", "of the trunk, forward; default: 0", "8"};
+constexpr Parameter kForwardLean{"lean", "DEGREES", "of the trunk, forward; default: 0", "8"};
 
-constexpr Parameter kWalk[] = {
-    kSteps,
+constexpr Parameter kWalkParameters[] = {
+    kStepCount,
     kDistance,
     kTo,
     kBow,
     {"step-length", "D", "default: 0.62 of the leg; on four legs half the hips' height", "0.7"},
-    kPace,
+    kStepRate,
     kFirst,
     kArmSwing,
     kUpAndDown,
     kKneeLift,
-    kLean};
-constexpr Parameter kRun[] = {kSteps,
-                              kDistance,
-                              kTo,
-                              kBow,
-                              {"step-length", "D", "default: 1.15 of the leg", "1.3"},
-                              {"pace", "N", "steps a second; default: 2.7", "3"},
-                              kFirst,
-                              kArmSwing,
-                              kUpAndDown,
-                              kKneeLift,
-                              kLean};
-constexpr Parameter kStrides{"strides", "N", "number of strides; default: 4, or as the distance needs", "6"};
-constexpr Parameter kTrot[] = {kStrides,
-                               kDistance,
-                               kTo,
-                               kBow,
-                               {"stride-length", "D", "default: 1.65 of the hips' height", "2.5"},
-                               {"pace", "N", "strides a second; default: 1.6", "2.2"},
-                               kUpAndDown,
-                               kKneeLift};
-constexpr Parameter kGallop[] = {kStrides,
-                                 kDistance,
-                                 kTo,
-                                 kBow,
-                                 {"stride-length", "D", "default: 2.8 times the hips' height", "6"},
-                                 {"pace", "N", "strides a second; default: 2", "2.6"},
-                                 kUpAndDown,
-                                 kKneeLift};
-constexpr Parameter kJump[] = {
+    kForwardLean};
+constexpr Parameter kRunParameters[] = {kStepCount,
+                                        kDistance,
+                                        kTo,
+                                        kBow,
+                                        {"step-length", "D", "default: 1.15 of the leg", "1.3"},
+                                        {"pace", "N", "steps a second; default: 2.7", "3"},
+                                        kFirst,
+                                        kArmSwing,
+                                        kUpAndDown,
+                                        kKneeLift,
+                                        kForwardLean};
+constexpr Parameter kStrideCount{"strides", "N", "number of strides; default: 4, or as the distance needs", "6"};
+constexpr Parameter kTrotParameters[] = {kStrideCount,
+                                         kDistance,
+                                         kTo,
+                                         kBow,
+                                         {"stride-length", "D", "default: 1.65 of the hips' height", "2.5"},
+                                         {"pace", "N", "strides a second; default: 1.6", "2.2"},
+                                         kUpAndDown,
+                                         kKneeLift};
+constexpr Parameter kGallopParameters[] = {kStrideCount,
+                                           kDistance,
+                                           kTo,
+                                           kBow,
+                                           {"stride-length", "D", "default: 2.8 times the hips' height", "6"},
+                                           {"pace", "N", "strides a second; default: 2", "2.6"},
+                                           kUpAndDown,
+                                           kKneeLift};
+constexpr Parameter kJumpParameters[] = {
     {"height", "H", "how far the hips rise after the feet have left the floor; default: 0.35 of the leg", "1"},
     {"distance", "D", "forward, negative backward; default: 0", "2.5"},
     {"turn", "DEGREES", "to the left while it flies; default: 0", "180"},
     {"gravity", "G", "units per second squared; default: 9.81 for a leg of 0.835 units, for others in proportion",
      "28"}};
-constexpr Parameter kTurn[] = {{"by", "DEGREES", "to the left; default: 90", "-90"},
-                               {"to", "X Y", "to face this place on the floor", "2 -1"},
-                               kPace};
-constexpr Parameter kSit[] = {
+constexpr Parameter kTurnParameters[] = {{"by", "DEGREES", "to the left; default: 90", "-90"},
+                                         {"to", "X Y", "to face this place on the floor", "2 -1"},
+                                         kStepRate};
+constexpr Parameter kSitParameters[] = {
     {"on", "ACTOR[/JOINT]", "the seat: an actor, or the segment of one of its joints; the figure walks there first",
      "bench"},
     {"seat-height", "H", "height of the seat above the floor; default: thighs are level", "0.45"},
     {"back", "D", "distance of the hips behind the feet; default: shins are upright", "0.4"},
     {"seconds", "S", "default: 1.6", "2"}};
-constexpr Parameter kStand[] = {{"seconds", "S", "default: 1.6", "2"}};
-constexpr Parameter kNod[] = {{"times", "N", "default: 2", "3"},
-                              {"depth", "DEGREES", "default: 24", "15"},
-                              {"seconds", "S", "of one nod; default: 0.6", "0.8"}};
-constexpr Parameter kWave[] = {{"hand", "SIDE", "left or right; default: right", "left"},
-                               {"times", "N", "default: 3", "5"},
-                               {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
+constexpr Parameter kStandParameters[] = {{"seconds", "S", "default: 1.6", "2"}};
+constexpr Parameter kNodParameters[] = {{"times", "N", "default: 2", "3"},
+                                        {"depth", "DEGREES", "default: 24", "15"},
+                                        {"seconds", "S", "of one nod; default: 0.6", "0.8"}};
+constexpr Parameter kWaveParameters[] = {{"hand", "SIDE", "left or right; default: right", "left"},
+                                         {"times", "N", "default: 3", "5"},
+                                         {"seconds", "S", "to and fro; default: 0.5", "0.4"}};
 constexpr Parameter kSpinning{"spin", "X Y Z", "degrees a second about the world's axes; default: none", "0 360 0"};
 constexpr Parameter kVelocity{"velocity", "X Y Z", "units a second; default: none", "2 0 5"};
-constexpr Parameter kThrow[] = {kVelocity,
-                                {"acceleration", "X Y Z",
-                                 "units per second squared; default: straight down, by the same gravity as bounce",
-                                 "0 0 -28"},
-                                kSpinning,
-                                {"seconds", "S", "default: 1", "1.5"}};
-constexpr Parameter kBounce[] = {
+constexpr Parameter kThrowParameters[] = {
+    kVelocity,
+    {"acceleration", "X Y Z", "units per second squared; default: straight down, by the same gravity as bounce",
+     "0 0 -28"},
+    kSpinning,
+    {"seconds", "S", "default: 1", "1.5"}};
+constexpr Parameter kBounceParameters[] = {
     kVelocity,
     {"gravity", "G", kGravityMeaning, "28"},
     {"floor", "Z", "height of the floor that the figure's lowest point hits; default: 0", "0.5"},
@@ -117,22 +116,23 @@ constexpr Parameter kBounce[] = {
      "part of the speed along the floor, and of the spin, that an impact removes, 0 to 1; default: 0.1", "0.3"},
     kSpinning,
     {"seconds", "S", "default: until the actor is at rest", "3"}};
-constexpr Parameter kSpin[] = {{"axis", "AXIS", "of the world: x, y or z; default: z", "x"},
-                               {"degrees", "DEGREES", "default: 360", "-720"},
-                               {"seconds", "S", "default: 2", "4"}};
-constexpr Parameter kGo[] = {{"to", "X Y Z", "the place to which the actor goes; required", "2 0 0"},
-                             {"seconds", "S", "default: 1", "2"},
-                             {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
+constexpr Parameter kSpinParameters[] = {{"axis", "AXIS", "of the world: x, y or z; default: z", "x"},
+                                         {"degrees", "DEGREES", "default: 360", "-720"},
+                                         {"seconds", "S", "default: 2", "4"}};
+constexpr Parameter kGoParameters[] = {{"to", "X Y Z", "the place to which the actor goes; required", "2 0 0"},
+                                       {"seconds", "S", "default: 1", "2"},
+                                       {"ease", "EASE", "linear, in, out or both; default: both", "out"}};
 
 const Action kActions[] = {
-    {"walk", "Walk: some steps, a distance, to a place, or along an arc", "hips, ankles", kWalk, walk},
-    {"run", "Run: some steps, a distance, to a place, or along an arc", "hips, knees, ankles", kRun, run},
-    {"jump", "Jump from both feet to both feet, up, forward or turning", "hips, knees, ankles", kJump, jump},
-    {"trot", "Trot, on four legs", "hips, ankles, shoulders", kTrot, trot},
-    {"gallop", "Gallop, on four legs", "hips, ankles, shoulders", kGallop, gallop},
-    {"turn", "Turn on the spot, by stepping", "hips, ankles", kTurn, turn},
-    {"sit", "Sit down on a seat behind the figure, or on a seat of the film", "hips, knees, ankles", kSit, sit},
-    {"stand", "Stand up from sitting", "hips, knees, ankles", kStand, stand},
+    {"walk", "Walk: some steps, a distance, to a place, or along an arc", "hips, ankles", kWalkParameters, walk},
+    {"run", "Run: some steps, a distance, to a place, or along an arc", "hips, knees, ankles", kRunParameters, run},
+    {"jump", "Jump from both feet to both feet, up, forward or turning", "hips, knees, ankles", kJumpParameters, jump},
+    {"trot", "Trot, on four legs", "hips, ankles, shoulders", kTrotParameters, trot},
+    {"gallop", "Gallop, on four legs", "hips, ankles, shoulders", kGallopParameters, gallop},
+    {"turn", "Turn on the spot, by stepping", "hips, ankles", kTurnParameters, turn},
+    {"sit", "Sit down on a seat behind the figure, or on a seat of the film", "hips, knees, ankles", kSitParameters,
+     sit},
+    {"stand", "Stand up from sitting", "hips, knees, ankles", kStandParameters, stand},
     {"reach", "Bring a hand, a foot or another joint to a place", "the limb that reaches", reach_parameters(), reach},
     {"plant", "Keep feet or hands where they are, while the rest of the body moves", "the limbs that stay",
      plant_parameters(), plant},
@@ -141,12 +141,12 @@ const Action kActions[] = {
     {"put", "Put down at a place the thing that a hand holds", "hips, ankles, shoulder, elbow", put_parameters(), put},
     {"toss", "Toss the thing that a hand holds to a place, where it bounces", "hips, ankles, shoulder, elbow",
      toss_parameters(), toss},
-    {"nod", "Nod with head and neck", "head or neck", kNod, nod},
-    {"wave", "Raise a hand, wave and lower it", "shoulder, elbow", kWave, wave},
-    {"throw", "Fly with a velocity and an acceleration", "", kThrow, fling},
-    {"bounce", "Fall and bounce on a floor until at rest", "", kBounce, bounce},
-    {"spin", "Spin evenly about an axis of the world", "", kSpin, spin},
-    {"go", "Go straight to a place", "", kGo, go},
+    {"nod", "Nod with head and neck", "head or neck", kNodParameters, nod},
+    {"wave", "Raise a hand, wave and lower it", "shoulder, elbow", kWaveParameters, wave},
+    {"throw", "Fly with a velocity and an acceleration", "", kThrowParameters, fling},
+    {"bounce", "Fall and bounce on a floor until at rest", "", kBounceParameters, bounce},
+    {"spin", "Spin evenly about an axis of the world", "", kSpinParameters, spin},
+    {"go", "Go straight to a place", "", kGoParameters, go},
 };
 
 // Everything that the keys hold, as one key.
@@ -227,12 +227,6 @@ const Action* find_action(std::string_view name) {
   const auto found =
       std::find_if(std::begin(kActions), std::end(kActions), [&](const Action& a) { return a.name == name; });
   return found == std::end(kActions) ? nullptr : found;
-}
-
-Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
-                  const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments) {
-  const document::Document document(document::laid_out(json), path.string());
-  return perform(json, animator::read_film(document.root(), path.parent_path()), name, action, at, arguments);
 }
 
 Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,

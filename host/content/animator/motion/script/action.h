@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,8 +36,5 @@ struct Performed {
 // action begins at the actor's last key.
 Performed perform(document::Json& json, const animator::Film& film, const std::string& name, const Action& action,
                   std::optional<std::uint32_t> at, const Arguments& arguments);
-// The same of the film file at `path`, beside which its models are.
-Performed perform(document::Json& json, const std::filesystem::path& path, const std::string& name,
-                  const Action& action, std::optional<std::uint32_t> at, const Arguments& arguments);
 
 }  // namespace mars::motion

@@ -1,8 +1,11 @@
 // Figures of several builds in a film, and how a test has them act.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/content/animator/motion/script/action.h"
@@ -16,9 +19,16 @@ struct Build {
   double leg;  // length, in the model's unit
 };
 
-inline document::Json human() {
-  return document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/human.json");
+// Of examples/models, each read once.
+inline document::Json example(const std::string& name) {
+  static std::map<std::string, document::Json> known;
+  document::Json& model = known[name];
+  if (model.is_null())
+    model = document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models" / (name + ".json"));
+  return model;
 }
+
+inline document::Json human() { return example("human"); }
 
 // Another body of the man's parts: everything times `size`, with longer or shorter legs, and wider.
 inline document::Json built(double size, double legs, double width) {
@@ -112,6 +122,21 @@ inline document::Json film_with(const document::Json& model) {
                          {{{"name", "anna"}, {"model", "figure"}, {"place", {1, 2, 0}}, {"turn", {0, 0, 30}}}})}};
 }
 
+// Reading models takes longest: films that have the same models share them.
+inline animator::Film read(const document::Json& json) {
+  static std::vector<std::pair<document::Json, std::vector<modeler::Model>>> known;
+  const document::Document document(document::laid_out(json), "film.json");
+  const auto found =
+      std::ranges::find_if(known, [&](const auto& film) { return animator::same_models(film.first, json); });
+  if (found != known.end()) {
+    std::vector<modeler::Model> models = found->second;
+    return animator::read_film(document.root(), models);
+  }
+  animator::Film film = animator::read_film(document.root(), ".");
+  known.insert(known.begin(), {json, film.models});
+  return film;
+}
+
 // "walk steps 4 lean 5", from a frame on, or else from the last key.
 inline Performed act(document::Json& film, const std::string& text, std::optional<std::uint32_t> at = {}) {
   std::vector<std::string> words;
@@ -128,12 +153,7 @@ inline Performed act(document::Json& film, const std::string& text, std::optiona
       if (parameter.name == name)
         for (std::size_t k = 0; k < parameter.count(); ++k) values[name].push_back(words.at(i++));
   }
-  return perform(film, "film.json", "anna", action, at, Arguments(values, std::string(action.name)));
-}
-
-inline animator::Film read(const document::Json& json) {
-  const document::Document document(document::laid_out(json), "film.json");
-  return animator::read_film(document.root(), ".");
+  return perform(film, read(film), "anna", action, at, Arguments(values, std::string(action.name)));
 }
 
 }  // namespace mars::motion

@@ -261,11 +261,7 @@ TEST(Feet, LeaveAndLandTogetherInAJump) {
 }
 
 // Of four legs the length is from the hip to the floor.
-std::vector<Build> animals() {
-  const std::filesystem::path models = std::filesystem::path(MARS_SOURCE_DIR) / "examples/models";
-  return {{"horse", document::read_json(models / "horse.json"), 3.4},
-          {"dog", document::read_json(models / "dog.json"), 1.4}};
-}
+std::vector<Build> animals() { return {{"horse", example("horse"), 3.4}, {"dog", example("dog"), 1.4}}; }
 
 TEST(Feet, OfFourLegsStayWhereTheyStand) {
   for (const char* words : {"walk steps 6 turn 40", "turn by -60"})

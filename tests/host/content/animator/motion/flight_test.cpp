@@ -99,8 +99,7 @@ TEST(Gravity, IsThatOfTheLargestFigureOnTwoLegs) {
     EXPECT_NEAR(10.5 - shown(film, 12).z, fallen, 5e-3);
     return fallen;
   };
-  const document::Json horse =
-      document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models/horse.json");
+  const document::Json horse = example("horse");
   const double man = kG * 2.9 / 8, metre = kG / 8;
   EXPECT_NEAR(way_of_half_a_second({}), metre, 1e-2);
   EXPECT_NEAR(way_of_half_a_second({horse}), metre, 1e-2);

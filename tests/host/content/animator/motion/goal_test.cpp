@@ -249,7 +249,7 @@ TEST(Pick, TakesFromAnothersHandAndRefusesNonsense) {
   const glm::dvec3 place = ball + kFacing * glm::dvec3(1.2, -0.3, 0);
   json["actors"][2]["place"] = {place.x, place.y, 0};
   json["actors"][2]["turn"] = {0, 0, 210};
-  perform(json, "film.json", "bert", *find_action("pick"), 60, Arguments({{"what", {"ball"}}}, "pick"));
+  perform(json, read(json), "bert", *find_action("pick"), 60, Arguments({{"what", {"ball"}}}, "pick"));
   const animator::Film film = read(json);
   EXPECT_EQ(film.actors[1].attach.back().value->actor, 2u);
   animator::JointFrames frames(film);

@@ -13,7 +13,7 @@
 namespace mars::motion {
 namespace {
 
-constexpr double kRounding = 1e-4;  // degrees
+constexpr double kLimitRounding = 1e-4;  // degrees
 
 struct Shown {
   explicit Shown(const document::Json& film) : film(read(film)), body(body_of(film_model(), "anna", "test")) {}
@@ -47,8 +47,10 @@ void expect_limits_kept(const document::Json& film, const Performed& done, const
     for (std::size_t i = 0; i < posture.pose.size(); ++i)
       for (int axis = 0; axis < 3; ++axis) {
         const modeler::Limits& limits = shown.film_model().joints[i].limits[axis];
-        EXPECT_GE(posture.pose[i][axis], limits.lower - kRounding) << what << " " << frame << shown.body.joint_name(i);
-        EXPECT_LE(posture.pose[i][axis], limits.upper + kRounding) << what << " " << frame << shown.body.joint_name(i);
+        EXPECT_GE(posture.pose[i][axis], limits.lower - kLimitRounding)
+            << what << " " << frame << shown.body.joint_name(i);
+        EXPECT_LE(posture.pose[i][axis], limits.upper + kLimitRounding)
+            << what << " " << frame << shown.body.joint_name(i);
       }
   }
 }
@@ -60,13 +62,9 @@ TEST(Actions, KeepTheLimitsAtEveryFrame) {
     expect_limits_kept(film, act(film, words), words);
 }
 
-document::Json animal(const std::string& name) {
-  return document::read_json(std::filesystem::path(MARS_SOURCE_DIR) / "examples/models" / (name + ".json"));
-}
-
 TEST(Actions, OfFourLegsKeepTheLimitsAtEveryFrame) {
   for (const char* name : {"horse", "dog"}) {
-    document::Json film = film_with(animal(name));
+    document::Json film = film_with(example(name));
     for (const char* words : {"walk steps 4", "trot strides 3", "turn by 70", "gallop strides 4", "nod"})
       expect_limits_kept(film, act(film, words), std::string(name) + " " + words);
   }
@@ -290,10 +288,10 @@ TEST(Actions, SayHowManyLegsTheyNeed) {
       "actor 'anna': has no four legs, which 'trot' needs (let it walk or run, or name its forelegs in its model's "
       "limbs: docs/model-format.md)");
   for (const char* words : {"run", "jump", "sit", "stand"})
-    EXPECT_NE(refused(animal("dog"), words).find("has four legs, which '" + std::string(words) + "' does not move"),
+    EXPECT_NE(refused(example("dog"), words).find("has four legs, which '" + std::string(words) + "' does not move"),
               std::string::npos)
-        << refused(animal("dog"), words);
-  const std::string narrow = refused(limited(animal("horse"), "fore-arm", "y", {-8, 8}), "gallop");
+        << refused(example("dog"), words);
+  const std::string narrow = refused(limited(example("horse"), "fore-arm", "y", {-8, 8}), "gallop");
   EXPECT_NE(narrow.find("fore foot cannot be where it stands"), std::string::npos) << narrow;
   EXPECT_NE(narrow.find("fore-arm' is at its limit"), std::string::npos) << narrow;
   EXPECT_NE(refused(bird(), "run").find("names no left knee, which 'run' needs"), std::string::npos);

@@ -1,0 +1,3 @@
+#include "host/json_code.h"
+
+MARS_JSON_CODE(template);

@@ -1,0 +1,40 @@
+// Tests write into folders of their own: in C++ those of tests/temporary_folder.h, in Python those of
+// tempfile.TemporaryDirectory. No two processes have the same folder, and nothing is left.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+#include "tests/architecture/sources.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What makes a temporary file or folder that nobody removes, or the name of one.
+const std::set<std::string> kMakers = {
+    "temp_directory_path", "mkdtemp", "mkstemp", "mkostemp", "tmpnam", "tempnam", "tmpfile", "TempDir", "gettempdir"};
+
+const std::map<std::string, std::string> kMayUseThem = {
+    {"tests/temporary_folder.h", "removes what it makes"},
+    {"tests/architecture/temporary_folders_test.cpp", "only names them"},
+    {"tests/bench/peers/peers.py", "makes folders within one that is removed"},
+};
+
+TEST(TemporaryFolders, AreMadeInOnePlace) {
+  int seen = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(fs::path(MARS_SOURCE_DIR) / "tests")) {
+    const std::string ending = entry.path().extension().string();
+    if (ending != ".h" && ending != ".cpp" && ending != ".py") continue;
+    ++seen;
+    const std::string path = fs::relative(entry.path(), MARS_SOURCE_DIR).generic_string();
+    const std::string text = mars::test::read(entry.path());
+    for (const std::string& maker : kMakers)
+      EXPECT_TRUE(text.find(maker) == std::string::npos || kMayUseThem.count(path) == 1) << path << " uses " << maker;
+  }
+  EXPECT_GT(seen, 400) << "nothing to scan: the test is broken";
+}
+
+}  // namespace

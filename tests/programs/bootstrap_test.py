@@ -1,0 +1,28 @@
+"""The verbs of ./bootstrap configure one build folder in any order: what one run of CMake finds stays in its cache for the
+next. Started as: bootstrap_test.py PROGRAMS_FOLDER SOURCES_FOLDER."""
+
+import itertools
+import subprocess
+
+from harness import SOURCES, ProgramTest, main
+
+# BUILD_TESTING and MARS_BENCH of each kind of verb.
+VERBS = {"demo": ["OFF", "OFF"], "test": ["ON", "OFF"], "bench": ["OFF", "ON"]}
+
+# Each kind follows each other kind once.
+WALK = ["demo", "test", "demo", "bench", "test", "bench", "demo"]
+
+
+class Bootstrap(ProgramTest):
+    def test_verbs_configure_in_any_order(self):
+        self.assertEqual(sorted(zip(WALK, WALK[1:])), sorted(itertools.permutations(VERBS, 2)))
+        for verb in WALK:
+            tests, benchmarks = VERBS[verb]
+            done = subprocess.run(["cmake", "--preset", "release", "-S", SOURCES, "-B", self.folder / "build",
+                                   f"-DBUILD_TESTING={tests}", f"-DMARS_BENCH={benchmarks}"],
+                                  cwd=SOURCES, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            self.assertEqual(done.returncode, 0, f"{verb}: {done.stdout[-3000:]}")
+
+
+if __name__ == "__main__":
+    main()
