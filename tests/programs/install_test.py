@@ -73,7 +73,7 @@ class Installed(SideBySide, Installation):
             for first in dict.fromkeys(" ".join(row[1].split(" ")[:2]) for row in rows if row[0] != "setting"):
                 part = [row for row in rows if row[0] != "setting" and
                         (row[1] in (program, first) or first != program and row[1].startswith(first + " "))]
-                folder = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
+                folder = self.temporary_folder()
                 (folder / "rows").write_text("".join("\t".join(row) + "\n" for row in part))
                 (folder / program).write_text(f"#!/bin/sh\nexec cat {folder}/rows\n")
                 (folder / program).chmod(0o755)
