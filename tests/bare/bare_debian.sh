@@ -12,7 +12,7 @@ set -euo pipefail
 
 suite=bookworm
 # In compilations of host/json_code.cpp, which take a machine's processors as long as they are slow.
-most_for_demo=MOST_FOR_DEMO
+most_for_demo=90
 checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
 
 give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 3; }
