@@ -4,7 +4,7 @@ pixels; without restarts, soon one clear end, on every host."""
 import json
 import subprocess
 
-from virtual_cluster import (CLUSTER, HOSTS, PROGRAMS, SECONDS, TESTBED, ClusterTest, run_on_cluster,
+from virtual_cluster import (CLUSTER, HOSTS, PROGRAMS, SECONDS, TESTBED, ClusterTest, complaints, run_on_cluster,
                              spinning_teapot, testbed, wait_until)
 
 ENDLESS = 100000  # frames
@@ -44,8 +44,8 @@ class Losses(ClusterTest):
 
     def assertGoesOn(self, says, hosts=HOSTS):
         """All frames with the pixels of one process; nothing of ours goes on on `hosts`."""
-        printed, complaints = self.process.communicate(timeout=SILENCE + SECONDS)
-        self.assertEqual((self.process.returncode, complaints), (0, ""), printed)
+        printed, said = self.process.communicate(timeout=SILENCE + SECONDS)
+        self.assertEqual((self.process.returncode, complaints(said)), (0, ""), printed)
         self.assertRegex(printed, says)
         for host in hosts:
             wait_until(lambda: not self.processes(host, *OUR_PROGRAMS), SOON, f"something still runs on {host}")

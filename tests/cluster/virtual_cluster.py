@@ -8,8 +8,8 @@ import sys
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "programs"))
-from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, main, spinning_teapot,  # noqa: E402
-                     wait_until)
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, complaints, main,  # noqa: E402,F401
+                     spinning_teapot, wait_until)
 
 TESTBED = SOURCES / "cluster/testbed/testbed.sh"
 HOSTS = ["n1", "n2", "n3", "n4"]

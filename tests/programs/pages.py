@@ -8,7 +8,7 @@ lines. A block ```c is a file, named in its first line: /* name.c */.
 import re
 import subprocess
 
-from harness import ENVIRONMENT, SANITIZED, SECONDS, SOURCES, ProgramTest
+from harness import ENVIRONMENT, SANITIZED, SECONDS, SOURCES, ProgramTest, complaints
 
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
@@ -31,7 +31,7 @@ class PageTest(ProgramTest):
     def run_commands(self, commands, where):
         done = subprocess.run(["bash", "-euc", commands], cwd=self.folder, env=self.environment(), capture_output=True,
                               text=True, timeout=2 * SECONDS)
-        warned = "" if SANITIZED else done.stderr  # sanitized nodes are slow enough to be warned of
+        warned = "" if SANITIZED else complaints(done.stderr)  # sanitized nodes are slow enough to be warned of
         self.assertEqual((done.returncode, warned), (0, ""), f"{where}\n{commands}\n{done.stdout}{done.stderr}")
         return "\n".join(line.rstrip() for line in done.stdout.rstrip().split("\n"))
 
