@@ -38,6 +38,10 @@ ENDLESS = 8000  # frames of 160 x 90: more than three nodes render while a test 
 TEMPORARY = tempfile.TemporaryDirectory(prefix="mars-test-", ignore_cleanup_errors=True)
 os.environ["TMPDIR"] = tempfile.tempdir = TEMPORARY.name
 os.environ.pop("XDG_RUNTIME_DIR", None)  # which programs prefer for sockets
+# Two mpiruns that begin at once both make this folder, and one of them fails; the last to end would remove it.
+SESSIONS = pathlib.Path(TEMPORARY.name, f"ompi.{os.uname().nodename.partition('.')[0]}.{os.geteuid()}")
+SESSIONS.mkdir(mode=0o700)
+(SESSIONS / "kept").touch()
 
 # For a person's own mpirun line: the tests may run as root, with more ranks than cores.
 OWN_MPIRUN = ["mpirun.mpich"] if MPICH else ["mpirun", "--oversubscribe", "--bind-to", "none"]
