@@ -92,7 +92,9 @@ class Writers(SideBySide, ProgramTest):
             words = [*OWN_MPIRUN, "-n", 1, PROGRAMS / "mars-host", path, "-o", out, *NODES, "--groups", groups, "--frames", "0-9",
                      "--no-coherence", "--report", f"report{groups}.json", ":", "-n", 1, PROGRAMS / "mars-node", ":", "-n", 1,
                      *apart, *hidden]
-            runs[groups] = subprocess.Popen(list(map(str, words)), cwd=self.folder, env=ENVIRONMENT, text=True,
+            # Two mpiruns that begin at once could not both make Open MPI's folder of sessions.
+            own = {**ENVIRONMENT, "TMPDIR": str(self.temporary_folder())}
+            runs[groups] = subprocess.Popen(list(map(str, words)), cwd=self.folder, env=own, text=True,
                                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
             self.addCleanup(self.end, runs[groups])
         for groups, says in all_says.items():

@@ -484,7 +484,7 @@ class Controls(Page):
 
 class Trouble(Page):
     def test_the_page_connects_again_and_asks_for_its_views(self):
-        self.allowed = "WebSocket"
+        self.allowed = "/ws?token"  # the page also asks why it is refused
         self.select("left-hand")
         self.click(picture(0))
         self.press("s")
