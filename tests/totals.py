@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Counts the cases of a run of the tests, and names those that were skipped with their reasons:
 
-  totals.py RESULTS.xml                 as ctest --output-junit writes them; exit code 1 where a case failed
-  totals.py RESULTS.xml SKIPS.txt       only holds the skipped cases against a list; exit code 1 where one is not in it
+  totals.py RESULTS.xml ...                     as ctest --output-junit writes them; exit code 1 where a case failed
+  totals.py --skips SKIPS.txt RESULTS.xml ...   only holds the skipped cases against a list; exit code 1 where one is not
+                                                in it
 
 The list has a line for each as it is printed here, with * for any text; # begins a comment. A test of ctest that names
 no cases is one case.
 """
 
+import argparse
 import fnmatch
 import pathlib
 import re
@@ -50,13 +52,15 @@ def hold_against(path, skipped):
 
 
 def main():
-    if len(sys.argv) not in (2, 3):
-        sys.exit(__doc__)
-    tests = xml.etree.ElementTree.parse(sys.argv[1]).getroot().iter("testcase")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", type=pathlib.Path, nargs="+")
+    parser.add_argument("--skips", type=pathlib.Path)
+    args = parser.parse_args()
+    tests = [test for path in args.results for test in xml.etree.ElementTree.parse(path).getroot().iter("testcase")]
     passed, failed, skipped = zip(*map(count, tests))
     skipped = sum(skipped, [])
-    if len(sys.argv) == 3:
-        sys.exit(not hold_against(pathlib.Path(sys.argv[2]), skipped))
+    if args.skips:
+        sys.exit(not hold_against(args.skips, skipped))
     for line in skipped:
         print(f"skipped: {line}")
     print(f"{sum(passed)} passed, {sum(failed)} failed, {len(skipped)} skipped")

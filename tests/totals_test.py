@@ -93,13 +93,16 @@ add_test(plain true)
         (self.folder / "disks_test.py").write_text(PYTHON.replace("full(self): pass", FULL_FAILS))
         self.assertIn("\n2 passed, 2 failed, 4 skipped\n", self.totals().stdout)
 
+    def test_adds_up_several_runs(self):
+        self.assertIn("\n6 passed, 0 failed, 8 skipped\n", self.totals("tests.xml").stdout)
+
     def test_holds_skips_against_a_list(self):
         expected = self.folder / "skips.txt"
         expected.write_text("# why\n" + "\n".join(LINES[:3]) + "\nmpi: built*   # elsewhere\n")
-        done = self.totals("skips.txt")
+        done = self.totals("--skips", "skips.txt")
         self.assertEqual((done.returncode, done.stdout), (0, ""))
         expected.write_text("\n".join(LINES[1:]) + "\nnetwork: *\n")
-        done = self.totals("skips.txt")
+        done = self.totals("--skips", "skips.txt")
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stdout.splitlines(), [f"skipped, but not in skips.txt: {LINES[0]}",
                                                     "in skips.txt, but not skipped: network: *"])

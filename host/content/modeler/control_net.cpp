@@ -11,7 +11,7 @@ namespace {
 constexpr double kNothing = 1e-9;  // what weighs less leaves a mean
 
 bool is_ascending(std::span<const Term> terms) {
-  return std::ranges::is_sorted(terms, std::ranges::less_equal(), &Term::point);
+  return std::ranges::adjacent_find(terms, std::ranges::greater_equal(), &Term::point) == terms.end();
 }
 
 // Leaves each point once.
