@@ -11,7 +11,7 @@
 set -euo pipefail
 
 suite=bookworm
-# In compilations of host/json_code.cpp, which take a machine's processors as long as they are slow.
+# A multiple of the processors' seconds that host/json_code.cpp takes to compile, so that slow machines pass, too.
 most_for_demo=90
 checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
 
@@ -102,7 +102,7 @@ keep_build() { [ -e "$checkout/build" ] || cp -a "$work/build$checkout/build" "$
 prove_demo() {
   local built yardstick
   bootstrap demo
-  built=$(awk '/^building/ { sum += $NF } END { print sum }' "$work/build$checkout/build/took.txt")
+  built=$(awk '/^building/ { sum += $NF } END { print sum }' "$work/build$checkout/build/took.txt") || true
   step "the demo's frames" build root '
     cd mars/build
     release/bin/mars verify demo
@@ -112,11 +112,15 @@ prove_demo() {
     if grep -x installed <<<"$states"; then exit 1; fi'
   step "a yardstick for the seconds of a build" build root '
     cd mars
-    TIMEFORMAT="%U %S"
-    { time c++ -std=c++20 -O3 -I. -c host/json_code.cpp -o /dev/null; } 2>/root/yardstick'
-  yardstick=$(awk '{ print $1 + $2 }' "$work/build/root/yardstick")
-  summary+=("building what demo builds: $built s of processors, $yardstick s for host/json_code.cpp alone")
-  if awk "BEGIN { exit !($built > $most_for_demo * $yardstick) }"; then
+    TIMEFORMAT="%U %S $(nproc)"
+    compile_everywhere() {
+      for _ in $(seq "$(nproc)"); do c++ -std=c++20 -O3 -I. -c host/json_code.cpp -o /dev/null & done
+      wait
+    }
+    { time compile_everywhere; } 2>/root/yardstick'
+  yardstick=$(awk '{ print ($1 + $2) / $3 }' "$work/build/root/yardstick") || true
+  summary+=("building what demo builds: ${built:-?} s of processors; host/json_code.cpp alone: ${yardstick:-?} s")
+  if awk "BEGIN { exit !(${built:-1} > $most_for_demo * ${yardstick:-0}) }"; then
     failed=$((failed + 1))
     summary+=("FAILED that is more than $most_for_demo such compilations: ./bootstrap costs shows where the time goes")
   fi

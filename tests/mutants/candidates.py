@@ -59,7 +59,7 @@ class Source:
         self.binary = [word in LOOSENESS and self.plain[token.start() - 1:token.start()].isspace()
                        and self.plain[token.end():token.end() + 1].isspace()
                        for word, token in zip(self.words, self.tokens)]
-        # Of each bracket the other one, and of each token the bracket in which it is.
+        # match: the other bracket of each bracket. parent: the bracket around each token.
         self.match, self.parent, self.braces, around = {}, [], {}, []
         for i, word in enumerate(self.words):
             if word in CLOSE and not self.binary[i]:

@@ -7,13 +7,15 @@ import pathlib
 import re
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "costs"))
+import costs  # noqa: E402
+
 PROCESSORS = 2
-QUICK = {"unit", "film", "word"}
-LABELS = QUICK | {"rule", "world", "fault", "chance", "cluster"}
-RULES = re.compile(r"(architecture|format|tidy|docs|version)_test")
+JUDGES = {"quick": set(costs.QUICK) - {"rule"}, "all": set(costs.LATER)}
 
 
 class Test:
@@ -22,15 +24,12 @@ class Test:
         self.properties = {each["name"]: each["value"] for each in described.get("properties", [])}
         self.limit = self.properties.get("TIMEOUT", 1500)
         self.processors = min(int(self.properties.get("PROCESSORS", 1)), PROCESSORS)
-        self.labels = set(self.properties.get("LABELS", [])) & LABELS
+        self.labels = set(self.properties.get("LABELS", []))
 
     def tier(self):
         """Nothing for tests that compare the sources themselves, and for those on a virtual cluster, whose machines do
         not get the environment."""
-        if self.labels & {"rule", "cluster"} or RULES.fullmatch(self.name):
-            return None
-        is_quick = self.labels & QUICK if self.labels else not re.search("browser|page", self.name)
-        return "quick" if is_quick else "all"
+        return next((tier for tier, labels in JUDGES.items() if self.labels & labels), None)
 
     def nearness(self, file):
         """How far down a file's path the test's name leads: studio_stage_test far to host/studio/stage/hand.cpp."""
@@ -45,14 +44,14 @@ def tests_of(build):
 
 
 class Run:
-    """A test that runs. What it leaves is found by its folder for temporary files, of which its environment tells."""
+    """A test that runs. What the test leaves is found by RUN_OF_MUTANT in its environment, which nothing else sets."""
 
     def __init__(self, test, number, limit, log):
         self.test, self.limit, self.log = test, limit, log
         self.folder = tempfile.TemporaryDirectory(prefix="m-", ignore_cleanup_errors=True)
-        self.temporary = self.folder.name
-        environment = {**os.environ, "MUTANT_OF_MARS": str(number), "TMPDIR": self.temporary}
+        environment = {**os.environ, "TMPDIR": self.folder.name}
         environment |= dict(line.split("=", 1) for line in test.properties.get("ENVIRONMENT", []))
+        environment |= {"MUTANT_OF_MARS": str(number), "RUN_OF_MUTANT": self.folder.name}
         log.parent.mkdir(parents=True, exist_ok=True)
         self.begin = time.monotonic()
         with log.open("wb") as output:
@@ -72,13 +71,14 @@ class Run:
         return "passed" if code == 0 else "failed" if code > 0 else signal.Signals(-code).name
 
     def end(self):
-        mark = f"TMPDIR={self.temporary}".encode()
+        mark = f"RUN_OF_MUTANT={self.folder.name}".encode()
         for environment in pathlib.Path("/proc").glob("[0-9]*/environ"):
             try:
                 if mark in environment.read_bytes().split(b"\0"):
                     os.kill(int(environment.parent.name), signal.SIGKILL)
             except OSError:
                 pass  # Others' processes, and those that have ended.
+        self.process.kill()
         self.process.wait()
         self.folder.cleanup()
 
