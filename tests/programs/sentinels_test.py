@@ -21,7 +21,8 @@ class Sentinels(ProgramTest):
     @needs_mpi
     def test_a_killed_node(self):
         """restarts_test.py; ranks over MPI, backends_test.py."""
-        with self.half_way(FRAMES, "render", self.film, "-o", "out", "--nodes", 2, "--backend", "mpi") as (process, kin):
+        words = ["render", self.film, "-o", "out", "--nodes", 2, "--backend", "mpi"]
+        with self.half_way(FRAMES, *words) as (process, kin):
             kill([max(p for p, (_, _, program) in kin.items() if program.endswith("mars-node"))])
         printed, said = process.communicate(timeout=SECONDS)
         self.assertEqual((process.returncode, complaints(said)), (0, ""), printed)

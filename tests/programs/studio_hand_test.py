@@ -1,5 +1,5 @@
-"""A hand turns a limb in mars studio: pictures follow it, and the film's file has the new pose once the hand lets go. No
-browser: the test sends the page's messages itself."""
+"""A hand turns a limb in mars studio: pictures follow it, and the film's file has the new pose once the hand lets go.
+No browser: the test sends the page's messages itself."""
 
 import json
 import signal
@@ -22,7 +22,8 @@ WAY = (12, 18)  # pixels of the view that the hand goes in each step
 class HandTest(ProgramTest):
     def start(self, film):
         """The studio's process and the link that it prints."""
-        words = ["studio", film.name, "--no-browser", "--nodes", "1", "--port", "0"]  # at no port that another's page knows
+        # At a free port: at the usual one, pages of other tests might look for their studios.
+        words = ["studio", film.name, "--no-browser", "--nodes", "1", "--port", "0"]
         studio = subprocess.Popen([PROGRAMS / "mars", *words], cwd=self.folder, env=ENVIRONMENT, text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(self.end, studio)
