@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import socket
@@ -154,6 +155,12 @@ def stopped(processes):
         yield
     finally:
         send(living(known), signal.SIGCONT)
+
+
+def processor_seconds():
+    """Of all processes that this one started and that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def wait_until(holds, seconds, what, pause=0.02):
