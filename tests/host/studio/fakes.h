@@ -21,7 +21,7 @@ using studio::Json;
 using studio::PageNumber;
 
 // Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written, "unshown" not be
-// described, "long" takes a minute, of which standard output tells the begin.
+// described, "long" says on standard output that it begins, and takes a minute.
 class FakeProject : public studio::Project {
  public:
   bool is_model() const override { return true; }
