@@ -1,15 +1,12 @@
 """Render farms: what the files of cluster/farms have Deadline, OpenCue and Flamenco run, with stand-ins for the farms."""
 
 import json
-import os
 import re
 import shlex
 import signal
 import subprocess
 import sys
-import time
 import types
-import unittest
 
 from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, endless_film, family, main, needs,
                      spinning_teapot, stopped, wait_until)

@@ -8,7 +8,7 @@ import re
 import socket
 import unittest
 
-from harness import (ENVIRONMENT, MPICH, PROGRAMS, SECONDS, ProgramTest, SideBySide, endless_film, family, kill, living,
+from harness import (ENVIRONMENT, MPICH, SECONDS, ProgramTest, SideBySide, endless_film, family, kill, living,
                      main, needs_mpi, spinning_teapot, wait_until)
 
 SHARED = pathlib.Path("/dev/shm")

@@ -6,7 +6,6 @@ import socket
 import struct
 import subprocess
 import time
-import unittest
 import zlib
 
 from harness import PROGRAMS, PROMPT, SECONDS, TRIES, ProgramTest, main, needs
