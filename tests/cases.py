@@ -1,5 +1,5 @@
 """The main function of test files in Python: it ends with the lines by which GoogleTest tells cases that passed, failed
-and were skipped, for tests/totals.py. And cases that run side by side."""
+and were skipped, for tests/totals.py. SideBySide runs cases at once."""
 
 import concurrent.futures
 import sys

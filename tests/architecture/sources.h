@@ -1,6 +1,7 @@
 // The source files that tests of the architecture scan, read once.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -26,9 +27,10 @@ inline std::vector<std::string> includes_in(const std::string& text) {
   static const std::regex include(R"(\s*#\s*include\s*[<"]([^>"]+)[>"].*)");
   std::vector<std::string> includes;
   std::smatch found;
-  for (std::size_t at = text.find("include"); at != std::string::npos; at = text.find("include", at + 1)) {
+  for (std::size_t at = text.find("include"); at != std::string::npos; at = text.find("include", at)) {
     const std::size_t begin = text.rfind('\n', at) + 1;
-    const std::string line = text.substr(begin, text.find('\n', at) - begin);
+    at = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(begin, at - begin);
     if (std::regex_match(line, found, include)) includes.push_back(found[1]);
   }
   return includes;

@@ -11,6 +11,8 @@
 namespace mars::messages {
 namespace {
 
+constexpr double kSoon = 200;  // seconds, with the start of mpirun on a busy machine
+
 struct Outcome {
   int code;
   std::string output;
@@ -43,7 +45,7 @@ int count(const std::string& text, const std::string& part) {
 void expect_fault(const Outcome& outcome, const std::string& reason) {
   EXPECT_NE(outcome.code, 0);
   EXPECT_EQ(count(outcome.output, reason), 1) << outcome.output;
-  EXPECT_LT(outcome.seconds, 20);
+  EXPECT_LT(outcome.seconds, kSoon);
 }
 
 const std::string kNeed = "one host and at least one node is needed, and this one has ";
@@ -84,7 +86,7 @@ TEST(MpiFaults, NodesThatAreKeptApartShareNoMemory) {
   const std::string job = FAULTY_JOB " apart : -n 3 unshare --user --map-root-user " FAULTY_JOB " apart";
   const Outcome outcome = run_job("1 " + job);
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  EXPECT_LT(outcome.seconds, 20);
+  EXPECT_LT(outcome.seconds, kSoon);
 }
 
 // MPI's own messages go by TCP then, which MPICH does not do within a machine.
@@ -96,13 +98,13 @@ TEST(MpiFaults, NodesShareMoreThanDevShmHas) {
   if (system((small + "true' 2> /dev/null").c_str()) != 0) GTEST_SKIP() << "no mount namespaces here";
   const Outcome outcome = run(small + MPIEXEC " 4 " FAULTY_JOB " fills_shared_memory' 2>&1");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  EXPECT_LT(outcome.seconds, 20);
+  EXPECT_LT(outcome.seconds, kSoon);
 }
 
 TEST(MpiFaults, MessagesThatNobodyReceivesDoNotHinderTheEnd) {
   const Outcome outcome = run_ranks(4, "leaves_messages");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  EXPECT_LT(outcome.seconds, 20);
+  EXPECT_LT(outcome.seconds, kSoon);
 }
 
 TEST(MpiFaults, ANodeThrowsInItsMidst) {
@@ -117,7 +119,7 @@ TEST(MpiFaults, ANodeDiesInItsMidst) {
     SCOPED_TRACE(how);
     const Outcome outcome = run_ranks(5, how);
     EXPECT_NE(outcome.code, 0);
-    EXPECT_LT(outcome.seconds, 20);
+    EXPECT_LT(outcome.seconds, kSoon);
   }
 }
 

@@ -14,11 +14,11 @@ import subprocess
 import threading
 import time
 
-from harness import wait_until
+from harness import SECONDS, wait_until
 
 SPECIAL = {"Escape": 0xff1b, "Left": 0xff51, "Right": 0xff53, "Home": 0xff50, "End": 0xff57}
 KEY_PRESS, KEY_RELEASE = 2, 3
-SOCKET = "/tmp/.X11-unix/X{}"  # of a display's number
+SOCKET, LOCK = "/tmp/.X11-unix/X{}", "/tmp/.X{}-lock"  # of a display's number
 IGNORED = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)(lambda display, error: 0)
 
 
@@ -53,7 +53,9 @@ class Display:
     def __init__(self, folder, *options, width=800, height=600):
         words = ["-screen", "0", f"{width}x{height}x24", "-fbdir", str(folder), "-ac", "-noreset", "-nolisten", "tcp",
                  *options]
-        self.number = next(number for number in random.sample(range(10, 1000), 20) if self.is_started(number, words))
+        numbers = random.sample(range(10, 1000), 20)
+        self.number = next((number for number in numbers if self.is_started(number, words)), None)
+        assert self.number is not None, f"Xvfb starts at none of the displays {numbers}"
         self.name = f":{self.number}"
         with open(pathlib.Path(folder) / "Xvfb_screen0", "rb") as file:
             self.memory = mmap.mmap(file.fileno(), 0, prot=mmap.PROT_READ)
@@ -76,11 +78,14 @@ class Display:
         return started
 
     def end(self):
-        """The server, which may stand still, removes its socket, unless a test has killed the server."""
+        """The server, which may stand still, removes its socket and its lock, unless a test has killed the server."""
+        if self.server.returncode is not None:
+            return  # it has been ended before, and its number may be another's
         self.server.terminate()
         self.server.send_signal(signal.SIGCONT)
         if self.server.wait() == -signal.SIGKILL:
-            pathlib.Path(SOCKET.format(self.number)).unlink(missing_ok=True)
+            for file in [SOCKET, LOCK]:
+                pathlib.Path(file.format(self.number)).unlink(missing_ok=True)
 
     def rows(self):
         """Of the screen: red, green, blue a pixel."""
@@ -171,5 +176,5 @@ class Relay:
         self.listener.close()
 
 
-def wait_for_picture(display, picture, seconds=10):
-    wait_until(lambda: display.shows(picture), seconds, "the window does not show the picture")
+def wait_for_picture(display, picture):
+    wait_until(lambda: display.shows(picture), SECONDS, "the window does not show the picture")

@@ -6,14 +6,14 @@ import shutil
 import signal
 import time
 
-from harness import (ENDLESS, MPICH, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, living, main, needs_mpi,
+from harness import (MPICH, PROGRAMS, PROMPT, ProgramTest, SideBySide, endless_film, family, living, main, needs_mpi,
                      spinning_teapot, wait_until)
 
 
 class Endings(SideBySide, ProgramTest):
     def start(self, backend):
         shutil.rmtree(self.folder / "out", ignore_errors=True)
-        film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
+        film = self.write("film.json", endless_film())
         self.process = self.start_mars("render", film, "-o", "out", "--nodes", 3, "--backend", backend, "--restarts", 0)
         self.family = family(self.process.pid)
 
@@ -21,7 +21,7 @@ class Endings(SideBySide, ProgramTest):
         return [p for p, (_, _, executable) in self.family.items() if executable.endswith("/" + program)]
 
     def assertEndsClearly(self, says):
-        _, printed = self.process.communicate(timeout=SECONDS)
+        _, printed = self.process.communicate(timeout=PROMPT)
         self.assertEqual(self.process.returncode, 1, printed)
         self.assertClear(printed, says)
         self.assertEqual(living(self.family), [])
@@ -72,7 +72,7 @@ class Endings(SideBySide, ProgramTest):
             with self.subTest(backend=backend):
                 self.start(backend)
                 self.process.kill()
-                wait_until(lambda: not living(self.family), SECONDS, "its processes live on")
+                wait_until(lambda: not living(self.family), PROMPT, "its processes live on")
 
     def test_closed_streams(self):
         """Files that are opened later do not get their numbers."""
@@ -89,8 +89,8 @@ class Endings(SideBySide, ProgramTest):
         """As any program does whose output goes to `head`, mars ends by SIGPIPE; all else ends with it."""
         self.start(self.backends()[-1])
         self.process.stdout.close()
-        self.assertEqual(self.process.wait(SECONDS), -signal.SIGPIPE)
-        wait_until(lambda: not living(self.family), SECONDS, "its processes live on")
+        self.assertEqual(self.process.wait(PROMPT), -signal.SIGPIPE)
+        wait_until(lambda: not living(self.family), PROMPT, "its processes live on")
 
     @needs_mpi
     def test_frozen_node(self):

@@ -1,18 +1,15 @@
 """Render farms: what the files of cluster/farms have Deadline, OpenCue and Flamenco run, with stand-ins for the farms."""
 
 import json
-import os
 import re
 import shlex
 import signal
 import subprocess
 import sys
-import time
 import types
-import unittest
 
-from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, family, main, needs, spinning_teapot,
-                     stopped, wait_until)
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, endless_film, family, main, needs,
+                     spinning_teapot, stopped, wait_until)
 
 FARMS = SOURCES / "cluster/farms"
 FRAMES, CHUNK = 6, 4
@@ -53,7 +50,7 @@ class Farms(ProgramTest):
         words = [PROGRAMS / "mars", *words[1:], "--backend", "threads", "--nodes", "1"]
         return subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=ENVIRONMENT)
 
-    def end(self, task, code=0):
+    def ends(self, task, code=0):
         out, error = task.communicate(timeout=SECONDS)
         self.assertEqual(task.returncode, code, out + error)
         return out, error
@@ -61,7 +58,7 @@ class Farms(ProgramTest):
     def run_all_at_once(self, commands):
         self.assertGreater(len(commands), 1)
         for task in [self.start(words) for words in commands]:
-            self.end(task)
+            self.ends(task)
         self.assertIn(f"{FRAMES} frames", self.succeed("mars", "verify", self.frames))
 
     def moved(self, text):
@@ -105,27 +102,27 @@ class Farms(ProgramTest):
         self.run_all_at_once([[command["parameters"]["exe"], *command["parameters"]["args"]] for command in commands])
 
     def test_a_stopped_chunk_goes_on_and_says_how_far_it_is(self):
-        film = self.write("long.json", spinning_teapot(2000, [160, 90]))
+        film = self.write("long.json", endless_film())
         words = ["mars", "render", str(film), "-o", str(self.frames), "--restarts", "0", "--frames"]
         task = self.start([*words, "0-"])
-        self.addCleanup(task.kill)
+        self.addCleanup(self.end, task)
         wait_until(lambda: len(list(self.frames.glob("frame-*.png"))) > 3, SECONDS, "no frame")
         with stopped(family(task.pid)):
             while not (match := re.match(r"Progress: (\d+)%, ", task.stdout.readline())):
                 self.assertIsNone(task.poll())
         self.assertLess(int(match[1]), 100)
         task.send_signal(signal.SIGTERM)
-        self.end(task, 1)
+        self.ends(task, 1)
         there = len(list(self.frames.glob("frame-*.png")))
         self.assertGreater(there, 2)
-        out, _ = self.end(self.start([*words, "0-1"]))
+        out, _ = self.ends(self.start([*words, "0-1"]))
         self.assertIn("nothing is left to render", out)
 
     def test_what_fails_says_why(self):
         words = ["mars", "render", str(self.film), "-o", str(self.frames), "--restarts", "0"]
-        _, error = self.end(self.start([*words, "--frames", f"{FRAMES}-{FRAMES + 3}"]), 1)
+        _, error = self.ends(self.start([*words, "--frames", f"{FRAMES}-{FRAMES + 3}"]), 1)
         self.assertClear(error, "beyond the film's last")
-        _, error = self.end(self.start([*words, "--frames", "<STARTFRAME>-"]), 2)
+        _, error = self.ends(self.start([*words, "--frames", "<STARTFRAME>-"]), 2)
         self.assertIn("is not a frame or a range of frames", error)
 
 

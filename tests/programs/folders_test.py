@@ -9,8 +9,8 @@ import signal
 import subprocess
 import time
 
-from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family, kill, main,
-                     spinning_teapot, stopped, wait_until)
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family,
+                     kill, main, send, spinning_teapot, stopped, wait_until)
 
 LONG = 12000  # frames: more than one node renders while a test looks on; and a film is compiled by every run
 SMALL = ["--nodes", 1, "--backend", "threads", "--quiet"]
@@ -23,10 +23,12 @@ class Folders(SideBySide, ProgramTest):
         self.film = self.write("film.json", spinning_teapot(LONG, [160, 90]))
         self.other = self.write("other.json", spinning_teapot(LONG, [120, 90]))
 
-    def start(self, frames, backend="threads"):
+    def long_run(self, frames, backend="threads"):
+        return ["render", self.film, "-o", "out", "--nodes", 1, "--backend", backend, "--quiet", "--frames", frames]
+
+    def start(self, frames):
         shutil.rmtree(self.out, ignore_errors=True)
-        return self.start_mars("render", self.film, "-o", "out", "--nodes", 1, "--backend", backend, "--quiet", "--frames",
-                               frames)
+        return self.start_mars(*self.long_run(frames))
 
     def render(self, film, frames, *more):
         return self.mars("render", film, "-o", "out", *SMALL, "--frames", frames, *more)
@@ -55,17 +57,18 @@ class Folders(SideBySide, ProgramTest):
     def test_frames_of_two_runs_are_not_mixed(self):
         long = self.start("0-99,200-11000")
         by = r"another run, process \d+ on host \S+, renders frames 0-99,200-11000 of "
-        for film, frames, says in [(self.film, "99-150", r"give other frames"),
-                                   (self.other, "11900", r"give another folder"),
-                                   (self.film, "11900", r"")]:
-            done = self.render(film, frames)
-            self.assertEqual(done.returncode, int(bool(says)), done.stderr)
-            if says:
-                self.assertClear(done.stderr, "mars: out: another run")
-                self.assertRegex(done.stderr, by + rf"\S+film.json into this folder since [\d:]+ \({says}")
-        done = self.render(self.film, "11900", "--size", "32x18")
-        self.assertIn("of another version, size or format of ", done.stderr)
-        self.assertIsNone(long.poll())
+        with stopped([long.pid, *family(long.pid)]):  # so that it does not end before the others
+            for film, frames, says in [(self.film, "99-150", r"give other frames"),
+                                       (self.other, "11900", r"give another folder"),
+                                       (self.film, "11900", r"")]:
+                done = self.render(film, frames)
+                self.assertEqual(done.returncode, int(bool(says)), done.stderr)
+                if says:
+                    self.assertClear(done.stderr, "mars: out: another run")
+                    self.assertRegex(done.stderr, by + rf"\S+film.json into this folder since [\d:]+ \({says}")
+            done = self.render(self.film, "11900", "--size", "32x18")
+            self.assertIn("of another version, size or format of ", done.stderr)
+            self.assertIsNone(long.poll())
         long.terminate()
         long.communicate(timeout=SECONDS)
         self.assertOnlyFrames()
@@ -111,8 +114,7 @@ class Folders(SideBySide, ProgramTest):
 
     def test_a_stopped_run_keeps_its_claim_and_a_killed_one_does_not(self):
         long = self.start("0-11000")
-        for each in family(long.pid):
-            os.kill(each, signal.SIGSTOP)
+        send([long.pid, *family(long.pid)], signal.SIGSTOP)
         self.assertIn("another run", self.render(self.film, "11000").stderr)
         self.assertEqual(self.render(self.film, "0").returncode, 0, "that is there already")
         self.kill(long)
@@ -139,9 +141,7 @@ class Folders(SideBySide, ProgramTest):
     def test_a_manifest_that_is_spoilt_while_a_run_renders(self):
         """Cut short, or replaced by what it may not replace: exit code 0 only with a folder that verify takes."""
         for spoilt, code in [('{"checksum": "0123', 0), ('{"version": 99}', 1)]:
-            run = self.start("0-399", self.backends()[-1])
-            with stopped(family(run.pid)):
-                self.assertTrue((self.out / ".runs").exists(), "it has ended already")
+            with self.half_way(400, *self.long_run("0-399", self.backends()[-1])) as (run, _):
                 (self.out / "frames.json").write_text(spoilt)
             printed = run.communicate(timeout=SECONDS)[1]
             self.assertEqual(run.returncode, code, printed)
@@ -153,12 +153,8 @@ class Folders(SideBySide, ProgramTest):
             self.assertOnlyFrames()
 
     def test_frames_that_somebody_removes_while_a_run_renders(self):
-        run = self.start("0-399")
-        with stopped(family(run.pid)):
-            self.assertTrue((self.out / ".runs").exists(), "it has ended already")
-            there = sorted(self.out.glob("*.png"))
-            self.assertTrue(there, "it has only begun")
-            there[0].unlink()
+        with self.half_way(400, *self.long_run("0-399")) as (run, _):
+            min(self.out.glob("*.png")).unlink()
         printed = run.communicate(timeout=SECONDS)[1]
         self.assertEqual(run.returncode, 0, printed)
         self.assertIn("400 frames, all there and whole", self.succeed("mars", "verify", "out"))

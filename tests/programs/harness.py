@@ -9,6 +9,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import socket
@@ -31,7 +32,8 @@ HAVE_MPI = (PROGRAMS / "mars-host").exists()
 MPICH = HAVE_MPI and b"libmpich" in (PROGRAMS / "mars-host").read_bytes()
 SANITIZED = re.search(rb"__[at]san_init", (PROGRAMS / "mars-threads").read_bytes()) is not None
 SECONDS = 600 if SANITIZED else 200  # for any one program, and for anything that must come, on a busy machine too
-ENDLESS = 8000  # frames of 160 x 90: more than three nodes render while a test looks on, and too few to be predicted first
+PROMPT = 600 if SANITIZED else 60  # for what a signal ends: far less than what does not hear the signal would last
+TRIES = 20  # of what fails only where the test gets no processor for long
 
 # Where tests and all that they start put temporary files: programs that are killed leave some. The folder is removed when
 # the tests have ended.
@@ -47,18 +49,24 @@ SESSIONS.mkdir(mode=0o700)
 OWN_MPIRUN = ["mpirun.mpich"] if MPICH else ["mpirun", "--oversubscribe", "--bind-to", "none"]
 ENVIRONMENT = dict(
     os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-    HWLOC_COMPONENTS="-gl")  # which ends with the X server of any program beside it
+    # This part of hwloc asks X servers for their cards, also those of other tests; if such a server ends, so does the
+    # program that asks.
+    HWLOC_COMPONENTS="-gl")
 
 # What mars says of itself on a busy machine: of nodes that share their processor with others, of a disk with much to do.
-BUSY = re.compile("times as long as others for an inbetween|as fast as the others again|storage has given no answer for 10 seconds|"
-                  "storage answers again")
+BUSY = re.compile("times as long as others for an inbetween|as fast as the others again|"
+                  "storage has given no answer for 10 seconds|storage answers again")
 
 needs_mpi = unittest.skipUnless(HAVE_MPI, "built without MPI")
 
 
 def complaints(printed):
-    """What a program wrote on standard error, but for what only says that the machine is busy."""
-    return "".join(line for line in printed.splitlines(keepends=True) if not BUSY.search(line))
+    """What a program wrote on standard error, but for what only says that the machine is busy. That goes to the test's
+    output, where a person can see whether the machine was busy."""
+    lines = printed.splitlines(keepends=True)
+    for line in filter(BUSY.search, lines):
+        print(f"not counted as a complaint: {line.rstrip()}", flush=True)
+    return "".join(line for line in lines if not BUSY.search(line))
 
 
 def needs(*tools):
@@ -73,6 +81,11 @@ def spinning_teapot(frames, size):
     film["size"] = size
     film["actors"][0]["keys"][1]["frame"] = max(frames, 24)
     return film
+
+
+def endless_film():
+    """More than a few nodes render while a test looks on; and few enough frames that each run compiles them soon."""
+    return spinning_teapot(8000, [480, 270])
 
 
 def intact(png):
@@ -122,21 +135,32 @@ def living(processes):
     return [p for p, before in processes.items() if (now := identity(p)) and now[1:] == before[1:]]
 
 
-def kill(processes):
-    """All at once, but those that have ended meanwhile."""
+def send(processes, number):
+    """A signal to all at once, but those that have ended meanwhile."""
     for each in processes:
         with contextlib.suppress(ProcessLookupError):
-            os.kill(each, signal.SIGKILL)
+            os.kill(each, number)
+
+
+def kill(processes):
+    send(processes, signal.SIGKILL)
 
 
 @contextlib.contextmanager
 def stopped(processes):
-    """While processes stand still."""
-    for each in processes:
-        os.kill(each, signal.SIGSTOP)
-    yield
-    for each in processes:
-        os.kill(each, signal.SIGCONT)
+    """While processes stand still: they go on however that ends."""
+    known = {each: now for each in processes if (now := identity(each))}
+    send(known, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        send(living(known), signal.SIGCONT)
+
+
+def processor_seconds():
+    """Of all processes that this one started and that have ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def wait_until(holds, seconds, what, pause=0.02):
@@ -213,7 +237,8 @@ class ProgramTest(unittest.TestCase):
         return self.run_program("mars", *words, **more)
 
     def succeed(self, *words, **more):
-        """Runs a program that must end well without a word of complaint; gives its standard output."""
+        """Runs a program that must end well without a word of complaint, but for those of a busy machine; gives its
+        standard output."""
         done = self.run_program(*words, **more)
         self.assertEqual((done.returncode, complaints(done.stderr)), (0, ""), f"{words}\n{done.stdout}")
         return done.stdout
@@ -247,19 +272,42 @@ class ProgramTest(unittest.TestCase):
 
     def start_mars(self, *words, env=ENVIRONMENT):
         """mars, running until its first frames are there; its family is ended with the test."""
+        process = self.launch_mars(*words, env=env)
+        if process.poll() is not None:
+            self.fail(f"it ended too soon: {process.communicate()[1]}")
+        return process
+
+    @contextlib.contextmanager
+    def half_way(self, frames, *words):
+        """A run of mars into the folder out, and the processes under it. All stand still within the block, with some of
+        these many frames written, but at most half of them. A run that is further before this test gets a processor
+        is followed by another."""
+        out = self.folder / "out"
+        for _ in range(TRIES):
+            shutil.rmtree(out, ignore_errors=True)
+            process = self.launch_mars(*words)
+            kin = family(process.pid)
+            with stopped([process.pid, *kin]):
+                if process.poll() is None and len(list(out.glob("*.png"))) <= frames / 2:
+                    yield process, kin
+                    return
+            said = process.communicate(timeout=SECONDS)[1]
+            self.assertEqual((process.returncode, complaints(said)), (0, ""))
+        self.fail(f"{TRIES} runs were at their end before they could be stopped")
+
+    def launch_mars(self, *words, env=ENVIRONMENT):
+        """mars, until its first frames are there or it has ended."""
         process = subprocess.Popen([str(PROGRAMS / "mars"), *map(str, words)], stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE, text=True, env=env, cwd=self.folder)
         self.addCleanup(self.end, process)
         out = self.folder / "out"
         begun = lambda: process.poll() is not None or len(list(out.glob("*.png"))) > 3
         wait_until(begun, SECONDS, "no frame")
-        if process.poll() is not None:
-            self.fail(f"it ended too soon: {process.communicate()[1]}")
         return process
 
     @staticmethod
     def end(process):
-        left = family(process.pid)
+        left = family(process.pid) if process.poll() is None else {}  # its number may be another's once it has ended
         process.kill()
+        kill(living(left))  # before the pipes are read to their ends, which what stands still may keep open
         process.communicate()
-        kill(living(left))

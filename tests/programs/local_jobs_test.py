@@ -8,8 +8,8 @@ import re
 import socket
 import unittest
 
-from harness import (ENDLESS, ENVIRONMENT, MPICH, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, kill, living, main,
-                     needs_mpi, spinning_teapot, wait_until)
+from harness import (ENVIRONMENT, MPICH, SECONDS, ProgramTest, SideBySide, endless_film, family, kill, living,
+                     main, needs_mpi, spinning_teapot, wait_until)
 
 SHARED = pathlib.Path("/dev/shm")
 FOLDER_SETTINGS = ["OMPI_MCA_orte_tmpdir_base", "OMPI_MCA_btl_vader_backing_directory"]
@@ -44,7 +44,7 @@ class LocalJobs(SideBySide, ProgramTest):
         self.environment = dict(ENVIRONMENT, TMPDIR=str(self.temporary))
 
     def start(self, *words):
-        film = self.write("long.json", spinning_teapot(ENDLESS, [160, 90]))
+        film = self.write("long.json", endless_film())
         return self.start_mars("render", film, "-o", "out", "--nodes", 2, *words, env=self.environment)
 
     @staticmethod

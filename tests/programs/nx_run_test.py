@@ -9,8 +9,8 @@ import tempfile
 import time
 import unittest
 
-from harness import (ENVIRONMENT, OWN_MPIRUN, PROGRAMS, SECONDS, SOURCES, ProgramTest, SideBySide, family, living, main,
-                     needs_mpi, wait_until)
+from harness import (ENVIRONMENT, OWN_MPIRUN, PROGRAMS, PROMPT, SECONDS, SOURCES, ProgramTest, SideBySide, family,
+                     living, main, needs_mpi, wait_until)
 
 LIBRARY = PROGRAMS.parent / "hal/program"
 MARS_NX = PROGRAMS / "mars-nx"
@@ -251,22 +251,25 @@ class NxRun(SideBySide, ProgramTest):
         return process
 
     def start_sleeping(self, count):
-        """mars-nx with a host and nodes that sleep; all of its processes. The memory that they share has no name, so
-        nothing of the memory is left, however they end."""
+        """mars-nx with a host and nodes that sleep; all of its processes."""
         process = self.start("--nodes", count, "./host", "./node", "sleep")
         for _ in range(count):
             self.assertEqual(process.stdout.readline(), "sleeping\n")
         processes = family(process.pid)
+        self.assertMemoryHasNoName([process.pid, *processes])
+        return process, processes
+
+    def assertMemoryHasNoName(self, processes):
+        """So that nothing of the memory which these processes share is left, however they end."""
         mapped = "".join(pathlib.Path(f"/proc/{each}/maps").read_text() for each in processes)
         self.assertIn("memfd:mars-nx", mapped)
         self.assertNotIn("/dev/shm/", mapped)
-        return process, processes
 
     def pid_of(self, processes, program):
         return next(pid for pid, (_, _, file) in processes.items() if pathlib.Path(file).name == program)
 
     def gone(self, processes):
-        wait_until(lambda: not living(processes), SECONDS, lambda: f"still there: {living(processes)}")
+        wait_until(lambda: not living(processes), PROMPT, lambda: f"still there: {living(processes)}")
 
 
 class Starts(NxRun):
@@ -495,7 +498,7 @@ class Kills(NxRun):
         for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
             process, all_of_it = self.start_sleeping(3)
             process.send_signal(number)
-            self.assertEqual(process.wait(SECONDS), 128 + number)
+            self.assertEqual(process.wait(PROMPT), 128 + number)
             self.assertEqual(process.stderr.read(), "")
             self.gone(all_of_it)
 
@@ -504,14 +507,14 @@ class Kills(NxRun):
         os.kill(self.pid_of(all_of_it, "node"), signal.SIGKILL)
         self.assertIn("died: signal 9", process.stderr.readline())
         os.kill(self.pid_of(all_of_it, "host"), signal.SIGKILL)
-        self.assertEqual(process.wait(SECONDS), 137)
+        self.assertEqual(process.wait(PROMPT), 137)
         self.gone(all_of_it)
 
     def test_the_host_is_killed(self):
         process, all_of_it = self.start_sleeping(3)
         os.kill(self.pid_of(all_of_it, "host"), signal.SIGKILL)
         self.assertEqual(process.stderr.readline(), "mars-nx: the host died: signal 9 (Killed)\n")
-        self.assertEqual(process.wait(SECONDS), 137)
+        self.assertEqual(process.wait(PROMPT), 137)
         self.gone(all_of_it)
 
     def test_at_any_instant(self):
@@ -521,11 +524,11 @@ class Kills(NxRun):
             wait_until(lambda: len(family(process.pid)) == 4, SECONDS, "no nodes")
             time.sleep(0.01 * i)
             all_of_it = family(process.pid)
+            self.assertMemoryHasNoName([process.pid, *all_of_it])
             os.kill(list(all_of_it)[i % 4], signal.SIGKILL)
-            self.assertEqual(process.wait(SECONDS), 137)
+            self.assertEqual(process.wait(PROMPT), 137)
             self.assertEqual(len(process.stderr.read().splitlines()), 1)
             self.gone(all_of_it)
-
 
 
 if __name__ == "__main__":

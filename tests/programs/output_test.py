@@ -6,9 +6,10 @@ import pty
 import struct
 import subprocess
 import termios
+import time
 
-from harness import (ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, main, spinning_teapot, stopped,
-                     wait_until)
+from harness import (ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, SideBySide, family, main, spinning_teapot,
+                     stopped, wait_until)
 
 TEAPOT = EXAMPLES / "teapot.json"
 FEW = ["--frames", "0-3"]
@@ -67,6 +68,7 @@ class Output(SideBySide, ProgramTest):
     def test_plain_lines_in_a_pipe(self):
         film = self.write("film.json", spinning_teapot(400, [160, 90]))
         words = ["render", film, "-o", "out", "--nodes", "1", "--backend", "threads", "--frames", "0-299"]
+        began = time.monotonic()
         with open(self.folder / "printed.txt", "w") as printed:
             process = subprocess.Popen([PROGRAMS / "mars", *words], stdout=printed, env=ENVIRONMENT, cwd=self.folder)
         self.addCleanup(self.end, process)
@@ -75,10 +77,11 @@ class Output(SideBySide, ProgramTest):
         with stopped(family(process.pid)):
             wait_until(lambda: "Progress: " in printed(), SECONDS, "no line of the progress")
         self.assertEqual(process.wait(SECONDS), 0)
+        seconds = time.monotonic() - began
         self.assertNotIn("\r", printed())
         self.assertNotIn("\x1b", printed())
         lines = printed().splitlines()
-        self.assertLess(len(lines), 150)
+        self.assertLessEqual(len(lines[2:-1]), 1 + seconds / 2)  # one every two seconds
         self.assertRegex(lines[1], r"^1 node on 1 machine \(threads\)")
         for line in lines[2:-1]:
             self.assertRegex(line, r"^Progress: \d+%, frame \d+ of 300, interval \d+ of \d+, [\d.]+ frames/s, \d+:\d\d left")

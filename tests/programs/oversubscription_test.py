@@ -6,7 +6,7 @@ import re
 import time
 import unittest
 
-from harness import (ENDLESS, MPICH, SECONDS, ProgramTest, family, main, needs_mpi, spinning_teapot, stopped, wait_until)
+from harness import MPICH, SECONDS, ProgramTest, endless_film, family, main, needs_mpi, stopped, wait_until
 
 SLEEPS = 100  # of a process that looks at most 1000 times a second whether something came, and sleeps between
 
@@ -39,7 +39,7 @@ class Oversubscription(ProgramTest):
             self.assertLess(sleeps / (time.monotonic() - began), 1500)
 
     def test_who_waits_sleeps(self):
-        film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
+        film = self.write("film.json", endless_film())
         job = self.start_mars("render", film, "-o", "out", "--nodes", 16, "--backend", "mpi")
         ours = {"mars-host": [], "mars-node": []}
         for each, (_, _, program) in family(job.pid).items():

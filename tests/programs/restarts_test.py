@@ -1,7 +1,6 @@
 """A rendering whose job dies goes on by itself, to the same pixels, even if the film's file has changed or is gone."""
 
 import json
-import os
 import pathlib
 import shutil
 import signal
@@ -10,7 +9,7 @@ import tempfile
 import time
 import unittest
 
-from harness import (ENVIRONMENT, MPICH, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family,
+from harness import (ENVIRONMENT, MPICH, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, kill,
                      living, main, needs_mpi, spinning_teapot)
 
 FRAMES = 400
@@ -34,14 +33,13 @@ class Restarts(SideBySide, ProgramTest):
         self.film = self.write("film.json", spinning_teapot(FRAMES, [160, 90]))
         self.text = self.film.read_text()
 
-    def start(self, backend, *words):
-        shutil.rmtree(self.folder / "out", ignore_errors=True)
-        self.process = self.start_mars("render", self.film, "-o", "out", "--nodes", 3, "--backend", backend, *words)
-        self.family = family(self.process.pid)
-
-    def kill(self, program):
-        kin = [p for p, (_, _, executable) in self.family.items() if executable.rsplit("/", 1)[-1].startswith(program)]
-        os.kill(max(kin), signal.SIGKILL)
+    def kill(self, backend, program, *words, at_once=lambda: None):
+        """A process of a rendering that is half way; at once something else happens."""
+        words = ["render", self.film, "-o", "out", "--nodes", 3, "--backend", backend, *words]
+        with self.half_way(FRAMES, *words) as (self.process, self.family):
+            kill([max(p for p, (_, _, executable) in self.family.items()
+                      if executable.rsplit("/", 1)[-1].startswith(program))])
+            at_once()
 
     def assertGoesOn(self, says):
         printed, said = self.process.communicate(timeout=SECONDS)
@@ -56,22 +54,18 @@ class Restarts(SideBySide, ProgramTest):
 
     @needs_mpi
     def test_after_a_killed_node(self):
-        self.start("mpi")
-        self.kill("mars-node")
+        self.kill("mpi", "mars-node")
         self.assertGoesOn("killed by signal 9")
 
     @needs_mpi
     def test_after_a_killed_host_whose_film_was_edited(self):
-        self.start("mpi")
-        self.write("film.json", dict(spinning_teapot(FRAMES, [160, 90]), background=[1, 0, 0]))
-        self.kill("mars-host")
+        other = dict(spinning_teapot(FRAMES, [160, 90]), background=[1, 0, 0])
+        self.kill("mpi", "mars-host", at_once=lambda: self.write("film.json", other))
         self.assertGoesOn("was killed by signal 9")
 
     @needs_mpi
     def test_after_a_killed_mpirun_whose_film_is_half_saved(self):
-        self.start("mpi")
-        self.film.write_text(self.text[:100])
-        self.kill("mpi" if MPICH else "orterun")
+        self.kill("mpi", "mpi" if MPICH else "orterun", at_once=lambda: self.film.write_text(self.text[:100]))
         self.assertGoesOn("was killed by signal 9")
 
     @needs_mpi
@@ -89,21 +83,17 @@ class Restarts(SideBySide, ProgramTest):
         self.assertIn("4 frames in out", printed)
 
     def test_after_killed_threads_whose_film_was_deleted(self):
-        self.start("threads")
-        self.film.unlink()
-        self.kill("mars-threads")
+        self.kill("threads", "mars-threads", at_once=self.film.unlink)
         self.assertGoesOn("mars-threads was killed by signal 9")
 
     def test_not_without_restarts(self):
-        self.start("threads", "--restarts", 0)
-        self.kill("mars-threads")
+        self.kill("threads", "mars-threads", "--restarts", 0)
         _, said = self.process.communicate(timeout=SECONDS)
         self.assertEqual(self.process.returncode, 1)
         self.assertClear(said, "mars-threads was killed by signal 9")
 
     def test_a_signal_ends_the_pause(self):
-        self.start("threads")
-        self.kill("mars-threads")
+        self.kill("threads", "mars-threads")
         time.sleep(0.5)
         self.process.send_signal(signal.SIGTERM)
         _, said = self.process.communicate(timeout=SECONDS)

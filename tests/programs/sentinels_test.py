@@ -1,10 +1,8 @@
 """One case of each kind of test that is not quick, for ./bootstrap test: what it stands for has a file of its own."""
 
-import os
-import signal
 import subprocess
 
-from harness import (ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, complaints, family, living, main, needs, needs_mpi,
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, complaints, kill, living, main, needs, needs_mpi,
                      spinning_teapot, wait_until)
 from storage_test import Mounts, needs_mounts
 
@@ -23,9 +21,9 @@ class Sentinels(ProgramTest):
     @needs_mpi
     def test_a_killed_node(self):
         """restarts_test.py; ranks over MPI, backends_test.py."""
-        process = self.start_mars("render", self.film, "-o", "out", "--nodes", 2, "--backend", "mpi")
-        kin = family(process.pid)
-        os.kill(max(p for p, (_, _, program) in kin.items() if program.endswith("mars-node")), signal.SIGKILL)
+        words = ["render", self.film, "-o", "out", "--nodes", 2, "--backend", "mpi"]
+        with self.half_way(FRAMES, *words) as (process, kin):
+            kill([max(p for p, (_, _, program) in kin.items() if program.endswith("mars-node"))])
         printed, said = process.communicate(timeout=SECONDS)
         self.assertEqual((process.returncode, complaints(said)), (0, ""), printed)
         self.assertIn("starting again (1 of 5) with 2 nodes", printed)

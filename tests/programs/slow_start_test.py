@@ -8,12 +8,12 @@ import subprocess
 import termios
 import time
 
-from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family, living, main,
-                     needs_mpi, state_of, wait_until)
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, PROMPT, SECONDS, ProgramTest, SideBySide, complaints,
+                     family, living, main, needs_mpi, state_of, wait_until)
 
 TEAPOT = EXAMPLES / "teapot.json"
 HINT_AFTER = 20  # seconds, as mars waits
-DEAF = "sleep 1000"  # of what does not end by itself
+DEAF = "sleep 1000"  # it does not end by itself while a test looks on
 ANSWERS_VERSION = "#!/bin/sh\ncase \"$*\" in *--version*) echo 'mpirun (Open MPI) 4.1.4'; exit;; esac\n"
 
 
@@ -44,7 +44,7 @@ class SlowStart(SideBySide, ProgramTest):
     def assertStopped(self, process, sent, before):
         kin = family(process.pid)
         process.send_signal(sent)
-        _, complaint = process.communicate(timeout=SECONDS)
+        _, complaint = process.communicate(timeout=PROMPT)
         self.assertEqual(process.returncode, 1, before)
         self.assertClear(complaint, f"stopped by {signal.strsignal(sent)}")
         self.assertEqual(living(kin), [], before)
@@ -86,9 +86,9 @@ class SlowStart(SideBySide, ProgramTest):
                     time.sleep(seconds)
                     kin = family(process.pid)
                     process.send_signal(sent)
-                    process.communicate(timeout=SECONDS)
+                    process.communicate(timeout=PROMPT)
                     self.assertIn(process.returncode, [1, -sent])  # the latter before mpirun is started
-                    wait_until(lambda: not living(kin), SECONDS, "its processes live on")
+                    wait_until(lambda: not living(kin), PROMPT, "its processes live on")
 
     def test_a_signal_ends_it_under_a_stopped_mpirun(self):
         process = self.start("stopped", f"echo $$ >pid; kill -STOP $$; {DEAF}")
@@ -113,8 +113,8 @@ class SlowStart(SideBySide, ProgramTest):
         process.send_signal(signal.SIGTERM)
         time.sleep(0.1)
         process.send_signal(signal.SIGTERM)
-        process.wait(timeout=SECONDS)
-        wait_until(lambda: not living(kin), SECONDS, "its processes live on")
+        process.wait(timeout=PROMPT)
+        wait_until(lambda: not living(kin), PROMPT, "its processes live on")
 
 
 if __name__ == "__main__":

@@ -8,8 +8,8 @@ import tempfile
 import time
 import unittest
 
-from harness import (ENDLESS, ENVIRONMENT, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family, living, main,
-                     needs, spinning_teapot, wait_until)
+from harness import (ENVIRONMENT, PROGRAMS, PROMPT, SECONDS, ProgramTest, SideBySide, complaints, endless_film, family,
+                     living, main, needs, spinning_teapot, wait_until)
 
 FRAMES = 40
 WITHIN_RIGHTS = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
@@ -113,7 +113,7 @@ class Storage(SideBySide, ProgramTest):
     def assertStops(self, process):
         kin = family(process.pid)
         process.send_signal(signal.SIGTERM)
-        process.wait(timeout=SECONDS)  # waiting for storage lasts 10 minutes
+        process.wait(timeout=PROMPT)  # waiting for storage lasts 10 minutes
         self.assertEqual(process.returncode, 1)
         self.assertIn("stopped by Terminated", complaints(self.words()).splitlines()[-1])
         return kin
@@ -207,7 +207,7 @@ class Storage(SideBySide, ProgramTest):
         self.assertNothingTorn(self.out)
 
     def test_a_folder_that_is_removed(self):
-        self.film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
+        self.film = self.write("film.json", endless_film())
         for backend in self.backends():
             with self.subTest(backend=backend):
                 process = self.start(backend=backend)
@@ -239,14 +239,14 @@ class Storage(SideBySide, ProgramTest):
         """Frozen, it holds whoever writes within the kernel, where no signal ends it."""
         image = self.folder / "image"
         with open(image, "wb") as file:
-            file.truncate(64 << 20)
+            file.truncate(256 << 20)
         subprocess.run(["mkfs.ext4", "-q", image], check=True, timeout=SECONDS)
         self.mounts = Mounts()
         self.addCleanup(self.mounts.end)
         if not self.mounts.runs("mount", "-o", "loop", image, self.disk):
             self.skipTest("may not mount a disk image")
         self.before = self.mounts.enter
-        self.film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
+        self.film = self.write("film.json", endless_film())
         guard = self.mounts.thaws_at_last(self.disk)
         self.addCleanup(self.end, guard)
         self.addCleanup(self.mounts.runs, "fsfreeze", "-u", self.disk)
@@ -260,7 +260,7 @@ class Storage(SideBySide, ProgramTest):
         time.sleep(1)
         kin = self.assertStops(process)
         self.mounts.run("fsfreeze", "-u", self.disk)
-        wait_until(lambda: not living(kin), SECONDS, "what the kernel held lives on")
+        wait_until(lambda: not living(kin), PROMPT, "what the kernel held lives on")
 
     def test_files_that_may_not_grow(self):
         done = self.run_program("prlimit", "--fsize=8000", PROGRAMS / "mars", "render", self.film, "-o", "out", "--backend", "threads")

@@ -59,11 +59,13 @@ def found(program):
 
 
 class Browser(Chromium):
-    """`script` runs before the page's own ones."""
+    """`script` runs before the page's own ones, after SETTLED."""
+
+    SETTLED = SCRIPT
 
     def __init__(self, width=1280, height=720, script="", flags=(), patience=PATIENCE):
         super().__init__(found("chromedriver"), width, height, flags, patience)
-        self.command("Page.addScriptToEvaluateOnNewDocument", source=SCRIPT + script)
+        self.command("Page.addScriptToEvaluateOnNewDocument", source=self.SETTLED + script)
         self.logged = []
 
     def __enter__(self):

@@ -6,10 +6,9 @@ import socket
 import struct
 import subprocess
 import time
-import unittest
 import zlib
 
-from harness import PROGRAMS, SECONDS, ProgramTest, main, needs
+from harness import PROGRAMS, PROMPT, SECONDS, TRIES, ProgramTest, main, needs
 from studio_page import Page, Refused, connect, request
 
 FAKE = PROGRAMS / "fake-studio"
@@ -39,9 +38,8 @@ class Studio:
 
     def end(self, number=signal.SIGTERM):
         self.process.send_signal(number)
-        began = time.monotonic()
-        _, errors = self.process.communicate(timeout=10)
-        return self.process.returncode, errors, time.monotonic() - began
+        _, errors = self.process.communicate(timeout=PROMPT)
+        return self.process.returncode, errors
 
     def __enter__(self):
         return self
@@ -203,29 +201,33 @@ class StudioTest(ProgramTest):
                 page.hear("state")
                 studio.process.send_signal(number)
                 self.assertEqual(page.ending(), 1001)
-                code, errors, seconds = studio.end(number)
-                self.assertEqual((code, errors), (0, ""))
-                self.assertLess(seconds, 3)
+                self.assertEqual(studio.end(number), (0, ""))
 
-    def test_signals_end_it_in_the_middle_of_a_step(self):
-        for signals, longest in ((1, 8), (2, 3)):
-            with self.subTest(signals=signals), Studio(self.folder, "--port", "0") as studio, Page(studio.link) as page:
-                page.hear("state")
-                page.say(do="commit", step={"set": "long"})
+    def end_in_a_step(self, signals):
+        """Seconds from the last of these signals to the studio's end, in a step that takes a minute."""
+        with Studio(self.folder, "--port", "0") as studio, Page(studio.link) as page:
+            page.hear("state")
+            page.say(do="commit", step={"set": "long"})
+            self.assertEqual(studio.process.stdout.readline(), "a long step begins\n")
+            for _ in range(signals - 1):
+                studio.process.send_signal(signal.SIGTERM)
                 time.sleep(0.5)
-                for _ in range(signals - 1):
-                    studio.process.send_signal(signal.SIGTERM)
-                    time.sleep(0.5)
-                code, errors, seconds = studio.end()
-                self.assertEqual(code, 1)
-                self.assertEqual(errors, "mars: the studio ends in the middle of a step, which is not done\n")
-                self.assertLess(seconds, longest)
+            began = time.monotonic()
+            self.assertEqual(studio.end(), (1, "mars: the studio ends in the middle of a step, which is not done\n"))
+            return time.monotonic() - began
+
+    def test_a_signal_ends_it_in_the_middle_of_a_step(self):
+        self.end_in_a_step(1)
+
+    def test_a_second_signal_ends_it_at_once(self):
+        """The first alone would take five seconds. A busy machine may take as long, but not each time."""
+        self.assertTrue(any(self.end_in_a_step(2) < 3 for _ in range(TRIES)))
 
 
 class StartTest(ProgramTest):
     def refused(self, *arguments):
         with Studio(self.folder, *arguments) as studio:
-            _, errors = studio.process.communicate(timeout=20)
+            _, errors = studio.process.communicate(timeout=SECONDS)
             self.assertEqual(studio.process.returncode, 1)
             return errors
 
@@ -271,7 +273,7 @@ class StartTest(ProgramTest):
                     self.assertNotIn(b"200", plain.recv(100))
                 page.say(do="undo")
                 page.hear("project")
-            self.assertEqual(studio.end()[:2], (0, ""))
+            self.assertEqual(studio.end(), (0, ""))
         self.assertIn("the key cannot be used", self.refused(*arguments, "cert.pem"))
         self.assertIn("the key cannot be used", self.refused(*arguments, "none.pem"))
         self.assertIn("the certificate cannot be used", self.refused("--certificate", "none.pem", "--key", "key.pem"))

@@ -291,15 +291,15 @@ class GoingOn(VideoTest):
         """However mars ends, so does ffmpeg; the file that was there stays."""
         film = self.write("film.json", a_film(3))
         (self.folder / "film.mp4").write_text("kept")
-        slow = self.with_ffmpeg('case "$*" in *rawvideo*) exec sleep 100;; *) exec $FFMPEG "$@";; esac')
+        slow = self.with_ffmpeg('case "$*" in *rawvideo*) exec sleep 1000;; *) exec $FFMPEG "$@";; esac')
         for sent in [signal.SIGTERM, signal.SIGKILL]:
             process = subprocess.Popen([PROGRAMS / "mars", "render", film, "-o", "film.mp4", "--overwrite", *SMALL], cwd=self.folder, env=slow)
             sleeps = lambda: [p for p, (_, _, program) in harness.family(process.pid).items() if program.endswith("/sleep")]
             harness.wait_until(sleeps, SECONDS, "ffmpeg is not started")
             everyone = harness.family(process.pid)
             process.send_signal(sent)
-            self.assertEqual(process.wait(5), -sent)
-            harness.wait_until(lambda: not harness.living(everyone), 5, "ffmpeg lives on")
+            self.assertEqual(process.wait(harness.PROMPT), -sent)
+            harness.wait_until(lambda: not harness.living(everyone), harness.PROMPT, "ffmpeg lives on")
             self.assertEqual((self.folder / "film.mp4").read_text(), "kept")
 
     def test_ffmpeg_is_missing(self):

@@ -10,8 +10,8 @@ import subprocess
 import unittest
 
 from display import Display, Relay, wait_for_picture
-from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, living, family, main, needs, spinning_teapot, \
-    wait_until
+from harness import (ENVIRONMENT, EXAMPLES, PROGRAMS, PROMPT, SECONDS, ProgramTest, complaints, living, family, main,
+                     needs, spinning_teapot, wait_until)
 from png_reader import png_rows
 from watcher import BEGIN, HEAD, PICTURE, PICTURE_HEAD
 
@@ -50,7 +50,7 @@ class Host:
     def end(self):
         self.control.close()
         self.stream.close()
-        assert self.process.wait(10) == 0
+        assert self.process.wait(SECONDS) == 0
 
     def send(self, kind, body):
         self.stream.sendall(HEAD.pack(kind, 0, 0, 0, len(body)) + body)
@@ -95,25 +95,25 @@ class Windows(ProgramTest):
         return "".join(self.display.windows().values())
 
     def window_opens(self):
-        wait_until(self.display.windows, 10, "no window opens")
+        wait_until(self.display.windows, SECONDS, "no window opens")
 
     def test_stays_with_the_last_frame(self):
         self.succeed("mars", "render", *SMALL, "-o", "out", "--window", env=on(self.display))
         title = r"robot-arm.json  -  frame (\d)  -  10 of 10  -  ended"
-        wait_until(lambda: re.fullmatch(title, self.title()), 5, self.title)
+        wait_until(lambda: re.fullmatch(title, self.title()), SECONDS, self.title)
         number = re.fullmatch(title, self.title())[1]
         wait_for_picture(self.display, self.picture(f"out/frame-000{number}.png"))
         self.display.press("q")
-        wait_until(lambda: not self.display.windows(), 5, "q does not close the window")
+        wait_until(lambda: not self.display.windows(), SECONDS, "q does not close the window")
 
     def test_a_window_that_ends_does_not_end_the_rendering(self):
         self.write("film.json", spinning_teapot(20, [480, 270]))
         process = self.start("render", "film.json", "-o", "out", *ONE_NODE, "--window")
         self.window_opens()
         self.display.press("Escape")
-        wait_until(lambda: not self.display.windows(), 5, "Esc does not close the window")
+        wait_until(lambda: not self.display.windows(), SECONDS, "Esc does not close the window")
         self.assertIsNone(process.poll())
-        self.assertEqual((process.communicate()[1], process.returncode), ("", 0))
+        self.assertEqual((complaints(process.communicate(timeout=SECONDS)[1]), process.returncode), ("", 0))
 
     def test_a_display_that_ends_does_not_end_the_rendering(self):
         """Nor one that stands still, of which a program may wait for an answer forever."""
@@ -124,7 +124,7 @@ class Windows(ProgramTest):
                 self.window_opens()
                 self.display.server.send_signal(ending)
                 self.assertIsNone(process.poll(), "the rendering ended before the display")
-                self.assertEqual((process.communicate(timeout=20)[1], process.returncode), ("", 0))
+                self.assertEqual((complaints(process.communicate(timeout=SECONDS)[1]), process.returncode), ("", 0))
                 self.display.end()
                 self.display = Display(self.folder)
                 self.addCleanup(self.display.end)
@@ -133,8 +133,8 @@ class Windows(ProgramTest):
         everyone = family(process.pid)
         self.assertTrue(everyone)
         process.send_signal(ending)
-        process.wait(10)
-        wait_until(lambda: not living(everyone), 5, lambda: f"left: {living(everyone)}")
+        process.wait(PROMPT)
+        wait_until(lambda: not living(everyone), PROMPT, lambda: f"left: {living(everyone)}")
 
     def test_a_signal_ends_rendering_and_window(self):
         self.write("film.json", spinning_teapot(3000, [480, 270]))
@@ -148,7 +148,7 @@ class Windows(ProgramTest):
         self.addCleanup(listener.close)
         control.send(b"l")
         control.close()
-        self.assertEqual(process.wait(10), 0)
+        self.assertEqual(process.wait(SECONDS), 0)
 
     def test_a_display_that_does_not_answer_keeps_nothing(self):
         self.display.server.send_signal(signal.SIGSTOP)
@@ -156,7 +156,7 @@ class Windows(ProgramTest):
             process = self.start(*words, "--window")
             # Before the window mars starts programs that end at once.
             is_started = lambda: any(program.endswith("/mars-window") for *_, program in family(process.pid).values())
-            wait_until(is_started, 5, "no window is started")
+            wait_until(is_started, SECONDS, "no window is started")
             self.assertEnded(process, signal.SIGKILL)
 
     def test_without_a_display_nothing_begins(self):
@@ -192,7 +192,7 @@ class Windows(ProgramTest):
         """A picture larger than the screen is reduced to it; 1 shows its pixels, f outlines what came."""
         host = self.host(self.display, 1280, 800)
         host.show((200, 30, 40))
-        wait_until(lambda: bytes([200, 30, 40]) * 300 in self.display.rows()[200], 10, "nothing is shown")
+        wait_until(lambda: bytes([200, 30, 40]) * 300 in self.display.rows()[200], SECONDS, "nothing is shown")
         host.show((10, 20, 250), (608, 384, 64, 32))
         wait_for_picture(self.display, [bytes([10, 20, 250]) * 28] * 14)
         self.display.press("1")
@@ -206,13 +206,13 @@ class Windows(ProgramTest):
         process = self.start("preview", SMALL[0], "--as", "stick", "--window")
         self.window_opens()
         self.display.press(",")
-        wait_until(lambda: "paused" in self.title(), 5, self.title)
+        wait_until(lambda: "paused" in self.title(), SECONDS, self.title)
         self.display.press("Home")
-        wait_until(lambda: ":   0/" in self.title(), 5, self.title)
+        wait_until(lambda: ":   0/" in self.title(), SECONDS, self.title)
         self.display.press("2")
-        wait_until(lambda: "vertices" in self.title(), 5, self.title)
+        wait_until(lambda: "vertices" in self.title(), SECONDS, self.title)
         self.display.press("q")
-        self.assertEqual((process.wait(10), process.stderr.read()), (0, ""))
+        self.assertEqual((process.wait(SECONDS), process.stderr.read()), (0, ""))
 
     def test_preview_shows_what_is_drawn(self):
         for name in ["stick", "surface"]:
@@ -225,7 +225,7 @@ class Windows(ProgramTest):
         self.display.press("4")
         wait_for_picture(self.display, self.picture("surface.png"))
         process.terminate()
-        wait_until(lambda: not self.display.windows(), 5, "the window stays without its player")
+        wait_until(lambda: not self.display.windows(), SECONDS, "the window stays without its player")
 
 
 if __name__ == "__main__":

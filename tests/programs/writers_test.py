@@ -7,8 +7,8 @@ import random
 import shutil
 import subprocess
 
-from harness import (ENDLESS, ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints, family,
-                     kill, main, needs_mpi, spinning_teapot, wait_until)
+from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints,
+                     endless_film, family, kill, main, needs_mpi, spinning_teapot, wait_until)
 
 NODES = ["--write", "nodes"]
 FRAMES = 20
@@ -149,7 +149,7 @@ class Writers(SideBySide, ProgramTest):
         self.assertIn("500 frames, all there and whole", self.succeed("mars", "verify", "out"))
 
     def test_a_run_that_loses_its_folder_ends(self):
-        path = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
+        path = self.write("film.json", endless_film())
         for lose in (lambda: (self.folder / "out").rename(self.folder / "moved"),
                      lambda: (self.folder / "out/.runs").rename(self.folder / "lost")):
             command = [PROGRAMS / "mars", "render", path, "-o", "out", "--quiet", "--backend", "threads", "--nodes", 2, *NODES]

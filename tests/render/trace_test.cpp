@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <vector>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "hal/messages/message_types.h"
 #include "host/render/trace/trace_file.h"

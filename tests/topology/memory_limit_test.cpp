@@ -1,6 +1,5 @@
 // Limits that made-up /proc and /sys trees give, and that this process sets.
 #include "topology/memory_limit.h"
-#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -10,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/temporary_folder.h"
 
 namespace mars::topology {
 namespace {

@@ -1,5 +1,4 @@
 #include "hal/nx/files_worker.h"
-#include "tests/temporary_folder.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,6 +9,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "tests/temporary_folder.h"
 
 namespace mars::nx {
 namespace {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -17,6 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 using Lines = std::vector<std::string>;
+
+constexpr double kSoon = 100;  // seconds, on a busy machine too: children that nobody ends sleep for 1000
+constexpr double kGrace = 6;   // seconds from a signal to the kill, as in child.cpp
 
 // A signal that came leaves an alarm behind, which would end the tests.
 struct ChildTest : testing::Test {
@@ -87,7 +91,7 @@ TEST_F(ChildTest, SignalsToUsArePassedOn) {
 TEST_F(ChildTest, WhoDoesNotListenIsKilled) {
   const Outcome once = run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] { kill(getpid(), SIGTERM); });
   EXPECT_EQ(once.ending.signal, SIGKILL);
-  EXPECT_LT(once.seconds, 12);
+  EXPECT_LT(once.seconds, kSoon);
 }
 
 // A start takes a while on a busy machine. A second signal kills, as it does later.
@@ -95,7 +99,7 @@ TEST_F(ChildTest, SignalsThatComeBeforeTheProgramRunsArePassedOn) {
   for (const int count : {1, 2}) {
     SignalRelay relay;
     for (int i = 0; i < count; ++i) raise(SIGTERM);
-    Process process(Command{{}, {"/bin/sleep", "60"}}, {.own_group = true, .default_signals = {SIGTERM}});
+    Process process(Command{{}, {"/bin/sleep", "1000"}}, {.own_group = true, .default_signals = {SIGTERM}});
     relay.relay_to(process.id());
     EXPECT_EQ(process.wait().signal, count == 1 ? SIGTERM : SIGKILL);
     EXPECT_EQ(relay.first(), SIGTERM);
@@ -103,30 +107,39 @@ TEST_F(ChildTest, SignalsThatComeBeforeTheProgramRunsArePassedOn) {
   }
 }
 
-TEST_F(ChildTest, ASecondSignalKillsAtOnce) {
-  const Outcome outcome = run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] {
+Outcome run_until_a_second_signal() {
+  return run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] {
     kill(getpid(), SIGTERM);
     std::thread([] {
       std::this_thread::sleep_for(300ms);
       kill(getpid(), SIGTERM);
     }).detach();
   });
-  EXPECT_EQ(outcome.ending.signal, SIGKILL);
-  EXPECT_LT(outcome.seconds, 4);
+}
+
+// A busy machine may take as long as the grace once, but not each time.
+TEST_F(ChildTest, ASecondSignalKillsAtOnce) {
+  double least = 2 * kGrace;
+  for (int tries = 0; tries < 10 && least >= kGrace; ++tries) {
+    alarm(0);  // of the try before
+    const Outcome outcome = run_until_a_second_signal();
+    EXPECT_EQ(outcome.ending.signal, SIGKILL);
+    least = std::min(least, outcome.seconds);
+  }
+  EXPECT_LT(least, kGrace);
 }
 
 // As a stopped mpirun: it does not even hear the signal that ends it.
 TEST_F(ChildTest, WhatIsStoppedIsEnded) {
-  const Outcome outcome = run("echo ready; kill -STOP $$; sleep 60", [] { kill(getpid(), SIGTERM); });
-  EXPECT_EQ(outcome.ending.signal, SIGTERM);
-  EXPECT_LT(outcome.seconds, 5);
+  const Outcome outcome = run("echo ready; kill -STOP $$; sleep 1000", [] { kill(getpid(), SIGTERM); });
+  EXPECT_EQ(outcome.ending.signal, SIGTERM) << "not the signal that comes after the grace";
 }
 
 // What ignores the signal and has ended its output is waited for no longer than other children.
 TEST_F(ChildTest, SignalsCountOnceTheOutputHasEnded) {
-  const Outcome outcome = run("echo ready; exec >/dev/null 2>&1; exec sleep 60", [] { kill(getpid(), SIGINT); });
+  const Outcome outcome = run("echo ready; exec >/dev/null 2>&1; exec sleep 1000", [] { kill(getpid(), SIGINT); });
   EXPECT_EQ(outcome.ending.signal, SIGINT);
-  EXPECT_LT(outcome.seconds, 5);
+  EXPECT_LT(outcome.seconds, kSoon);
 }
 
 // A listener that hangs, as one that writes where nobody reads: the alarm ends us. In a process of its own.
@@ -134,14 +147,14 @@ TEST_F(ChildTest, ASignalEndsUsWhateverWeDo) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_EXIT(
       {
-        run("echo ready; trap '' TERM; sleep 60", [] {
+        run("echo ready; trap '' TERM; sleep 1000", [] {
           kill(getpid(), SIGTERM);
           kill(getpid(), SIGTERM);
           for (;;) std::this_thread::sleep_for(1h);
         });
       },
       testing::ExitedWithCode(1), "");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, SignalRelay::kLongestOnceMore + 3s);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, SignalRelay::kLongest) << "sooner than by one signal";
 }
 
 TEST_F(ChildTest, AnIgnoredHangupStaysIgnored) {
@@ -170,10 +183,10 @@ TEST(Child, WaitsForNoOtherChild) {
 TEST(Child, KillsNoOtherChild) {
   const pid_t other = fork();
   if (other == 0) {
-    std::this_thread::sleep_for(60s);
+    std::this_thread::sleep_for(1000s);
     _exit(9);
   }
-  run("setsid sleep 60 &");
+  run("setsid sleep 1000 &");
   EXPECT_EQ(waitpid(other, nullptr, WNOHANG), 0) << "it should still run";
   kill(other, SIGKILL);
   waitpid(other, nullptr, 0);
@@ -194,9 +207,9 @@ TEST(Child, MayWriteALineWithoutEnd) {
 
 // A process in a group of its own, as mpirun starts them, that outlives its parent.
 TEST(Child, WhatItLeavesIsKilled) {
-  const Outcome outcome = run("setsid sleep 60 & echo $!");
+  const Outcome outcome = run("setsid sleep 1000 & echo $!");
   EXPECT_EQ(outcome.ending.code, 0);
-  EXPECT_LT(outcome.seconds, 10);
+  EXPECT_LT(outcome.seconds, kSoon);
   std::this_thread::sleep_for(100ms);
   ASSERT_EQ(outcome.output.size(), 1u);
   const std::string state = run("grep State /proc/" + outcome.output[0] + "/status").output.empty() ? "gone" : "there";
@@ -205,8 +218,8 @@ TEST(Child, WhatItLeavesIsKilled) {
 
 TEST(Child, EndsWithItsOwner) {
   std::string process;
-  { Child child({{}, {"/bin/sh", "-c", "exec sleep 60"}}); }
-  EXPECT_LT(run("echo").seconds, 5);
+  { Child child({{}, {"/bin/sh", "-c", "exec sleep 1000"}}); }
+  EXPECT_LT(run("echo").seconds, kSoon);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -20,7 +21,7 @@ using studio::Json;
 using studio::PageNumber;
 
 // Steps are {"set": TEXT}; "bad" makes no sense, "line" has a wrong line, "disk" cannot be written, "unshown" not be
-// described, "long" takes a minute.
+// described, "long" says on standard output that it begins, and takes a minute.
 class FakeProject : public studio::Project {
  public:
   bool is_model() const override { return true; }
@@ -81,7 +82,10 @@ class FakeProject : public studio::Project {
     if (text == "bad") throw Failure("the step makes no sense", "joint 'arm'", "");
     if (text == "line") throw Failure("is no action", "play.script:4: walk", "");
     if (text == "disk") throw std::system_error(std::make_error_code(std::errc::no_space_on_device));
-    if (text == "long") std::this_thread::sleep_for(std::chrono::minutes(1));
+    if (text == "long") {
+      std::cout << "a long step begins\n" << std::flush;
+      std::this_thread::sleep_for(std::chrono::minutes(1));
+    }
     shown_ = text;
     ++revision_;
   }

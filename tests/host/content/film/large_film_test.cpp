@@ -1,20 +1,19 @@
 // Films at the size that must still work, with generous bounds on processors' time.
 #include <gtest/gtest.h>
 
-#include <ctime>
 #include <functional>
 
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/content/film/small_film.h"
+#include "tests/processor_time.h"
 
 namespace mars::film {
 namespace {
 
-// Processors' seconds: what else the machine does does not count.
 double seconds_of(const std::function<void()>& work) {
-  const std::clock_t start = std::clock();
+  const test::ProcessorTime time;
   work();
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  return time.seconds();
 }
 
 constexpr const char* kStart = R"({"frames": 24, "camera": {"eye": [0, -900, 200]}, "models": {"m": )";

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "host/content/document/file.h"
+#include "tests/comes.h"
 #include "tests/host/render/sinks/small_folders.h"
 #include "tests/temporary_folder.h"
 
@@ -12,12 +13,6 @@ namespace mars::sinks {
 namespace {
 
 using namespace std::chrono_literals;
-
-template <typename Holds>
-bool soon(const Holds& holds) {
-  for (int i = 0; i < 1000 && !holds(); ++i) std::this_thread::sleep_for(10ms);
-  return holds();
-}
 
 TEST(StatusFile, IsWrittenAtOnceAgainAndAtTheEnd) {
   const test::TemporaryFolder folder;
@@ -27,14 +22,14 @@ TEST(StatusFile, IsWrittenAtOnceAgainAndAtTheEnd) {
   {
     const StatusFile status(
         file, folder / "run.status.part", [&] { return std::to_string(number); }, 50ms);
-    EXPECT_TRUE(soon([&] { return text() == "1"; }));
+    EXPECT_TRUE(test::comes([&] { return text() == "1"; }));
     number = 2;
-    EXPECT_TRUE(soon([&] { return text() == "2"; }));
+    EXPECT_TRUE(test::comes([&] { return text() == "2"; }));
   }
   {
     const StatusFile status(
         file, folder / "run.status.part", [&] { return std::to_string(number); }, 1h);
-    EXPECT_TRUE(soon([&] { return text() == "2"; }));
+    EXPECT_TRUE(test::comes([&] { return text() == "2"; }));
     number = 3;
   }
   EXPECT_EQ(text(), "3");
@@ -58,7 +53,7 @@ TEST(StatusFile, OfAFolderIsGoneWithItsRun) {
     const auto runs = RunsFolder(folder.path(), this_process()).runs();
     return std::ranges::any_of(runs.front().files, [](const auto& file) { return file.extension() == kStatusEnding; });
   };
-  EXPECT_TRUE(soon(has_status));
+  EXPECT_TRUE(test::comes(has_status));
   put_frames(frames, small_manifest(), 7);
   frames.finish();
   EXPECT_FALSE(std::filesystem::exists(folder / ".runs"));

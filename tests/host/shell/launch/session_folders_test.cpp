@@ -14,14 +14,13 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <fstream>
 #include <optional>
 #include <random>
 #include <string>
-#include <thread>
 
 #include "host/content/document/text.h"
+#include "tests/comes.h"
 #include "tests/temporary_folder.h"
 
 namespace mars::launch {
@@ -164,10 +163,7 @@ TEST_F(SessionFoldersTest, AreRemovedByAnotherWithNothingOpen) {
   int status = 0;
   waitpid(starter, &status, 0);
   EXPECT_EQ(status, 0);
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!base_is_empty() && std::chrono::steady_clock::now() < end)
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  EXPECT_TRUE(base_is_empty());
+  EXPECT_TRUE(test::comes([this] { return base_is_empty(); }));
   fcntl(ends[0], F_SETFL, O_NONBLOCK);
   char none = 0;
   EXPECT_EQ(read(ends[0], &none, 1), 0) << "it holds what it inherited";

@@ -32,7 +32,7 @@ using namespace mars;
 using studio::RendererLink;
 using studio::SurfacePicture;
 
-constexpr std::chrono::seconds kPatience{30};
+constexpr std::chrono::seconds kPatience{200};
 
 // What /proc says of a process behind its name: state, parent, ...
 std::vector<std::string> stat_of(pid_t process) {

@@ -3,10 +3,12 @@ answers with pictures of plain colours. It takes Debian's python3-websockets."""
 
 import asyncio
 import base64
+import concurrent.futures
 import http
 import json
 import mimetypes
 import pathlib
+import socket
 import struct
 import threading
 import urllib.parse
@@ -38,8 +40,18 @@ def plain(width, height, color):
     return bytes((*color, 255)) * (width * height)
 
 
+def kept_port():
+    """A socket that keeps a port for this process, though nobody listens there at times: the socket never does, so that
+    another of this address may."""
+    keeper = socket.socket()
+    keeper.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    keeper.bind(("127.0.0.1", 0))
+    return keeper
+
+
 class MockStudio:
-    port = 0  # one for all: then the browser keeps the page's files from one test to the next
+    keeper = kept_port()  # one for all: then the browser keeps the page's files from one test to the next
+    port = keeper.getsockname()[1]
 
     def __init__(self, project, draw=None, token=TOKEN):
         self.project = project
@@ -60,9 +72,9 @@ class MockStudio:
     # A test's side.
 
     def start(self):
-        started = threading.Event()
+        started = concurrent.futures.Future()
         threading.Thread(target=self._run, args=(started,), daemon=True).start()
-        started.wait(settled.PATIENCE)
+        started.result(settled.PATIENCE)
         return self
 
     def stop(self):
@@ -109,10 +121,12 @@ class MockStudio:
 
         async def serve():
             self.server = await websockets.serve(self._page, "127.0.0.1", self.port, process_request=self._file, compression=None)
-            MockStudio.port = self.server.sockets[0].getsockname()[1]
-            started.set()
 
-        self.loop.run_until_complete(serve())
+        try:
+            started.set_result(self.loop.run_until_complete(serve()))
+        except OSError as failure:
+            started.set_exception(failure)
+            return
         self.loop.run_forever()
         self.loop.close()
 

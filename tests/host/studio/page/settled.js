@@ -4,6 +4,7 @@
 
 {
   const Plain = window.WebSocket, later = window.setTimeout, never = window.clearTimeout;
+  const now = performance.now.bind(performance);  // a test may replace the page's clock
   const kept = [];  // what waits while the page is held: {act, timer}
   let socket = null, held = false, sent = 0, answered = () => {};
 
@@ -102,13 +103,13 @@
   // An element and where the mouse finds it, as soon as it does. The page stands still until release(). `text`: all that
   // the element says, or null.
   async function take(selector, text, patience) {
-    for (const end = performance.now() + patience;;) {
+    for (const end = now() + patience;;) {
       await settled();
       held = true;
       const place = placeOf(find(selector, text));
       if (typeof place !== "string") return place;
       release();
-      if (performance.now() > end) throw new Error(`${selector} ${text ?? ""} ${place}`);
+      if (now() > end) throw new Error(`${selector} ${text ?? ""} ${place}`);
     }
   }
 
@@ -120,7 +121,7 @@
   // The page hears and says nothing more, and does not look for its studio.
   function leave() {
     held = true;
-    socket.close();
+    socket?.close();
   }
 
   window.hand = {settled, take, hold, release, leave};

@@ -10,8 +10,8 @@
 #include "hal/failure/explain.h"
 #include "host/content/document/file.h"
 #include "host/studio/project/project.h"
-#include "tests/temporary_folder.h"
 #include "tests/host/studio/step_words.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::studio {
 

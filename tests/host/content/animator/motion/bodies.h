@@ -19,7 +19,7 @@ struct Build {
   double leg;  // length, in the model's unit
 };
 
-// Of examples/models, each read once.
+// A model of examples/models, which is read once.
 inline document::Json example(const std::string& name) {
   static std::map<std::string, document::Json> known;
   document::Json& model = known[name];
