@@ -12,7 +12,7 @@ set -euo pipefail
 
 suite=bookworm
 # A multiple of the processors' seconds that host/json_code.cpp takes to compile, so that slow machines pass, too.
-most_for_demo=90
+most_for_demo=75
 checkout=$(cd "$(dirname "$0")/../.." && pwd -P)
 
 give_up() { printf 'bare_debian: %s\n' "$*" >&2; exit 3; }
