@@ -3,7 +3,7 @@
 import json
 import re
 
-from harness import ENVIRONMENT, EXAMPLES, SANITIZED, SECONDS, SOURCES, ProgramTest, main, processor_seconds
+from harness import ENVIRONMENT, EXAMPLES, SECONDS, SOURCES, ProgramTest, main, processor_seconds
 
 CUBES = EXAMPLES / "cubes.json"
 
@@ -237,10 +237,15 @@ class Plans(ProgramTest):
         groups = {(node["first_line"], node["last_line"]) for node in report["frames"][0]["nodes"]}
         self.assertEqual(len(groups), 2 // plan["groups"], "nodes of a group share the first frame's lines")
 
-    def test_it_takes_little_time(self):
+    def test_many_nodes_take_little_more_time(self):
+        """1 and 4 seconds of a processor. What else the machine does makes both longer."""
+        few, many = (self.seconds_of_plan(nodes) for nodes in (2, 256))
+        self.assertLess(many, 10 * few)
+
+    def seconds_of_plan(self, nodes):
         before = processor_seconds()
-        self.succeed("mars", "plan", EXAMPLES / "demo.json", "--nodes", 256, "--platform", "dragonfly")
-        self.assertLess(processor_seconds() - before, SECONDS if SANITIZED else 8, "2 seconds and what loading takes")
+        self.succeed("mars", "plan", EXAMPLES / "demo.json", "--nodes", nodes, "--platform", "dragonfly")
+        return processor_seconds() - before
 
     def test_films_and_platforms_that_are_not_there(self):
         self.fail_clearly(2, "plan", says="FILM is required")
