@@ -3,7 +3,7 @@
 import json
 import re
 
-from harness import ENVIRONMENT, EXAMPLES, SECONDS, SOURCES, ProgramTest, main, processor_seconds
+from harness import ENVIRONMENT, EXAMPLES, SOURCES, ProgramTest, main, processor_seconds
 
 CUBES = EXAMPLES / "cubes.json"
 
