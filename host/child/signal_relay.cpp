@@ -51,8 +51,9 @@ void signal_group(pid_t group, int signal) {
   kill(-group, SIGCONT);
 }
 
-SignalRelay::SignalRelay() {
-  check(!relay_here.exchange(true), "one child at a time");
+SignalRelay::SignalRelay() : within_another_(relay_here.exchange(true)) {
+  check(relay_group == 0, "one child at a time");
+  if (within_another_) return;
   relay_count = relay_first = 0;
   const struct sigaction ending = handled_by(end_here), relaying = handled_by(relay);
   sigaction(SIGALRM, &ending, nullptr);
@@ -64,8 +65,9 @@ SignalRelay::SignalRelay() {
 }
 
 SignalRelay::~SignalRelay() {
-  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
   relay_group = 0;
+  if (within_another_) return;
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
   relay_here = false;
 }
 

@@ -18,10 +18,12 @@ class SignalRelay {
   // The same from the second signal: then a person does not want to wait.
   static constexpr std::chrono::seconds kLongestOnceMore{6};
 
-  // From now on signals are counted and kept; `relay_to` says where they go. One relay at a time in a process. A SIGHUP
-  // that is ignored, as under nohup, stays ignored.
+  // From now on signals are counted and kept; `relay_to` says where they go. Within another relay, which lasts, as for
+  // several children one after another, this one goes on with its signals. A SIGHUP that is ignored, as under nohup,
+  // stays ignored.
   SignalRelay();
-  // The signals are again what they were. A stop that was asked for stays asked for: the alarm stays set.
+  // After the outermost the signals are again what they were. A stop that was asked for stays asked for: the alarm
+  // stays set.
   ~SignalRelay();
   SignalRelay(const SignalRelay&) = delete;
   SignalRelay& operator=(const SignalRelay&) = delete;
@@ -37,6 +39,7 @@ class SignalRelay {
   void forget_group();
 
  private:
+  bool within_another_;
   std::array<struct sigaction, 3> before_{};
 };
 

@@ -129,7 +129,11 @@ class Readers(ProgramTest):
                               ("exrinfo", {"half": "   '{}': half samp 1 1", "float": "   '{}': float samp 1 1"})]:
             if not shutil.which(program):
                 continue
-            printed = self.succeed(program, *(["-a"] if program == "exrinfo" else []), self.layered).splitlines()
+            done = self.run_program(program, *(["-a"] if program == "exrinfo" else []), self.layered)
+            self.assertEqual(done.stderr, "")
+            if program == "exrheader":  # exrinfo's exit code is whatever was in memory (OpenEXR 3.1.5)
+                self.assertEqual(done.returncode, 0)
+            printed = done.stdout.splitlines()
             for name, kind in kinds.items():
                 self.assertIn(line[kind].format(name), printed, program)
             manifests = [text for text in printed if "/manifest" in text and "cryptomatte/" in text]

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstring>
 #include <iostream>
 #include <memory>
 #include <thread>
@@ -11,6 +12,7 @@
 #include "host/child/descriptor.h"
 #include "host/child/environment.h"
 #include "host/child/process.h"
+#include "host/child/signal_relay.h"
 #include "host/child/standard_streams.h"
 #include "host/render/events/events.h"
 #include "host/render/resume/resume.h"
@@ -176,6 +178,14 @@ std::unique_ptr<RenderingWindow> open_window(options::RenderOptions& options, co
   return window;
 }
 
+// A signal between two jobs, or after the last, ends the rendering as one during a job does.
+void supervise(Supervisor& supervisor, const options::RenderOptions& options) {
+  const child::SignalRelay signals;
+  supervisor.render();
+  if (signals.first() != 0)
+    throw Failure("stopped by " + std::string(strsignal(signals.first())), options.folder, way_to_go_on(options));
+}
+
 // What nodes draw of the film: frames of the folder, or faces.
 void render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser,
             Display& display) {
@@ -183,7 +193,7 @@ void render(options::RenderOptions options, const std::filesystem::path& self, c
   const Starting starting = prepare(options, self);
   const std::unique_ptr<RenderingWindow> window = open_window(options, starting, self);
   Supervisor supervisor(options, world_of(options, starting, display, adviser));
-  supervisor.render();
+  supervise(supervisor, options);
   if (window) window->leave();
   if (!supervisor.last().ended_for.empty())
     std::cerr << "mars: warning: all frames are there, but " << supervisor.last().ended_for << '\n';

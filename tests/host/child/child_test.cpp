@@ -117,6 +117,18 @@ Outcome run_until_a_second_signal() {
   });
 }
 
+// As between two jobs: the next child ends by the signal that came before it.
+TEST_F(ChildTest, ASignalBetweenChildrenEndsTheNext) {
+  const SignalRelay signals;
+  EXPECT_EQ(run("echo").ending.code, 0);
+  kill(getpid(), SIGTERM);
+  EXPECT_EQ(signals.first(), SIGTERM);
+  const Outcome next = run("sleep 1000");
+  EXPECT_EQ(next.ending.signal, SIGTERM);
+  EXPECT_LT(next.seconds, kSoon);
+  alarm(0);
+}
+
 // A busy machine may take as long as the grace once, but not each time.
 TEST_F(ChildTest, ASecondSignalKillsAtOnce) {
   double least = 2 * kGrace;
