@@ -19,6 +19,7 @@ export class CurveHand {
     this.plot.root.focus({preventScroll: true});
     if (event.button === 1) return panning(this.axis, (dy) => this.plot.panValues(dy));
     if (event.button !== 0) return null;
+    this.keys.presumeTaken();
     const {handle, line, index} = this.plot.find(this.plot.view.spot(event));
     return handle ? this.#handle(handle) : line ? this.#point(event, line, line.keys[index]) : this.#box(event);
   }

@@ -34,6 +34,9 @@ export class FilmKeys {
     setTimeout(() => { if (this.#awaited === done) this.#answered(false); }, kPatience);
   }
 
+  // For a hand that begins anew: the answer to what it did before would come in its way.
+  presumeTaken() { this.#answered(true); }
+
   #answered(taken) {
     const done = this.#awaited;
     this.#awaited = null;

@@ -16,6 +16,7 @@ export class SheetHand {
     this.sheet.root.focus({preventScroll: true});
     if (event.button === 1) return panning(this.axis, (dy) => this.rowList.scrollBy(-dy));
     if (event.button !== 0) return null;
+    this.keys.presumeTaken();
     const {row, mark} = this.sheet.find(this.sheet.view.spot(event));
     return mark ? this.#keys(event, row, mark) : this.#box(event);
   }

@@ -1,6 +1,8 @@
 """The timeline of a film in a headless Chromium: what hands do to keys leaves as the commands that a person would
 type. Takes what page_test.py takes."""
 
+import time
+
 from selenium.webdriver.common.keys import Keys
 
 import projects
@@ -79,6 +81,14 @@ class Timeline(Page):
         self.drag("walker left-shin", 60, 50)
         self.assertEqual(self.commands(), ["animate move walker left-shin --frame 20 --to 10",
                                            "animate move walker left-shin --frame 60 --to 50"])
+
+    def test_a_drag_goes_on_where_the_studio_never_answers_the_one_before(self):
+        self.drag("walker left-shin", 40, 70)
+        self.studio.wait_for("commit")
+        self.drag("walker left-shin", 20, 30, drop=False)
+        time.sleep(1.6)  # as long as the page waits for an answer
+        self.browser.release(self.x(30), self.y("walker left-shin"))
+        self.assertEqual(self.commands(2), ["animate move walker left-shin --frame 20 --to 30"])
 
     def test_a_box_is_eased_by_the_menu_and_deleted(self):
         self.pull((self.x(15), self.y("walker left-shin") - 8), (self.x(45), self.y("walker head") + 8))
