@@ -188,7 +188,8 @@ class Storage(SideBySide, ProgramTest):
         self.film = self.write("film.json", spinning_teapot(3000, [160, 90]))
         process = self.start()
         wait_until(lambda: "frame-0003.png" in self.inside("ls out 2>/dev/null || true"), SECONDS, "no frame")
-        self.inside("mount --bind out out && mount -o remount,ro,bind out")
+        # The kernel refuses while a file is open for writing.
+        self.inside("mount --bind out out && until mount -o remount,ro,bind out 2>/dev/null; do sleep 0.01; done")
         self.hears(process, "Read-only file system; waiting")
         self.inside("umount out")
         self.hears(process, "the run goes on\n")
