@@ -410,7 +410,8 @@ class FilmTest(StudioInBrowser):
         self.assertEqual(file.read_text(), changed)
         self.changed_by(lambda: self.keys("z", modifiers=CTRL))
         self.assertEqual(json.loads(file.read_text()), FILM)
-        self.no_complaint()
+        # What the page has heard of the studio before, and of the new one, which does not know its token.
+        self.no_complaint(*NO_STUDIO, "response code: 403")
 
     def test_network_is_cut(self):
         studio = self.enterContext(Studio(PROGRAMS, self.film()))
