@@ -204,7 +204,7 @@ class StudioTest(ProgramTest):
                 self.assertEqual(studio.end(number), (0, ""))
 
     def end_in_a_step(self, signals):
-        """Seconds from the last of these signals to the studio's end, in a step that takes a minute."""
+        """Seconds from the last signal to the studio's end, in a step that takes a minute."""
         with Studio(self.folder, "--port", "0") as studio, Page(studio.link) as page:
             page.hear("state")
             page.say(do="commit", step={"set": "long"})

@@ -34,7 +34,7 @@ export class FilmKeys {
     setTimeout(() => { if (this.#awaited === done) this.#answered(false); }, kPatience);
   }
 
-  // For a hand that begins anew: the answer to what it did before would come in its way.
+  // A hand that presses again does not wait: a late answer to its last step would end the new drag.
   presumeTaken() { this.#answered(true); }
 
   #answered(taken) {
