@@ -25,6 +25,7 @@ ROOT = HERE.parents[1]
 QUICK = ["rule", "unit", "film", "word"]
 LATER = ["world", "fault", "chance"]
 MOST_ROWS = 25  # of single targets and tests
+NO_RECORD = -1  # the code of a test that did not come to its end
 
 
 def label_of(tiers):
@@ -67,15 +68,16 @@ def tiers_of_tests(build):
 
 
 def run_stage(build, name, commands):
-    """The stage's own records, and the seconds that passed."""
+    """The stage's own records, the seconds that passed, and whether all commands succeeded."""
     log = build / "costs.log"
     before = len(read_records(log))
-    begin = time.monotonic()
+    begin, succeeded = time.monotonic(), True
     for command in commands:
         done = subprocess.run(list(map(str, command)), cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode != 0 and command[0] == "cmake":
             sys.exit(f"costs: {' '.join(map(str, command))} failed:\n{done.stdout[-3000:]}")
-    return read_records(log)[before:], time.monotonic() - begin
+        succeeded = succeeded and done.returncode == 0
+    return read_records(log)[before:], time.monotonic() - begin, succeeded
 
 
 def measure(build, until):
@@ -84,8 +86,12 @@ def measure(build, until):
     costs = {"stages": {}, "targets": {}, "tests": {}}
     for name, (what, commands) in stages(build).items():
         print(f"costs: {what} ...", file=sys.stderr, flush=True)
-        records, passed = run_stage(build, name, commands)
-        add_records(costs, name, records, passed, tiers_of_tests(build) if name in ["quick", "later"] else {})
+        records, passed, succeeded = run_stage(build, name, commands)
+        tiers = tiers_of_tests(build) if name in ["quick", "later"] else {}
+        add_records(costs, name, records, passed, tiers)
+        if not succeeded:
+            add_tests_without_record(costs, {test: tier for test, tier in tiers.items()
+                                             if tier in (QUICK if name == "quick" else LATER)})
         (build / "costs.json").write_text(json.dumps(costs, indent=1) + "\n")
         if name == until:
             break
@@ -104,6 +110,12 @@ def add_records(costs, stage, records, passed, tiers):
     for name, processors in seconds.items():
         target = costs["targets"].setdefault(name, {"stage": stage, "processors": 0})
         target["processors"] = round(target["processors"] + processors, 2)
+
+
+def add_tests_without_record(costs, tiers):
+    """ctest kills `record` together with a test that is too slow."""
+    for name in tiers.keys() - costs["tests"].keys():
+        costs["tests"][name] = {"tier": tiers[name], "passed": 0, "processors": 0, "code": NO_RECORD}
 
 
 def row(name, *figures):
@@ -125,7 +137,8 @@ def stage_rows(all_costs):
 
 def tier_rows(all_costs):
     rows = []
-    for tier in QUICK + LATER + ["none"]:
+    known = QUICK + LATER + ["none"]
+    for tier in known + sorted({t["tier"] for costs in all_costs for t in costs["tests"].values()} - set(known)):
         tests = [[t for t in costs["tests"].values() if t["tier"] == tier] for costs in all_costs]
         if any(tests):
             rows.append(row(tier, *(sum(t[key] for t in each) for each in tests for key in ["processors", "passed"])))
@@ -153,7 +166,14 @@ def report(all_costs):
 
 
 def read_costs(path):
-    return json.loads(pathlib.Path(path).read_text())
+    try:
+        costs = json.loads(pathlib.Path(path).read_text())
+        report([costs])
+        return costs
+    except OSError as error:
+        sys.exit(f"costs: {path} cannot be read: {error.strerror}")
+    except (ValueError, TypeError, KeyError, AttributeError):
+        sys.exit(f"costs: {path} is not a whole costs.json; name one that costs.py has written")
 
 
 def main():
@@ -165,8 +185,9 @@ def main():
     args = parser.parse_args()
     if not args.build and not args.show:
         parser.error("name a folder to build in, or --show FILE")
+    before = [read_costs(args.against)] if args.against else []  # now: measuring clears the folder that may have it
     costs = read_costs(args.show) if args.show else measure(args.build.resolve(), args.until)
-    print(report([read_costs(args.against), costs] if args.against else [costs]))
+    print(report([*before, costs]))
     failed = sorted(name for name, test in costs["tests"].items() if test["code"] not in (0, 77))
     if failed:
         sys.exit(f"costs: these tests failed: {' '.join(failed)}")

@@ -61,6 +61,29 @@ class Table(unittest.TestCase):
     def test_one_run_stands_alone(self):
         self.assertIn("| `keys_test` | 2.0 | 2.0 |", costs.report([some_costs(2)]))
 
+    def test_a_test_that_left_no_record_counts_as_failed(self):
+        made = some_costs(2)
+        costs.add_tests_without_record(made, {"keys_test": "unit", "slow_test": "unit"})
+        self.assertEqual([made["tests"][name]["code"] for name in ["keys_test", "slow_test"]], [0, costs.NO_RECORD])
+
+    def test_files_that_hold_no_costs_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "costs.json"
+            for text in ["", "[]", "{}", '{"stages": {}']:
+                file.write_text(text)
+                with self.assertRaisesRegex(SystemExit, f"{file} is not a whole costs.json"):
+                    costs.read_costs(file)
+            with self.assertRaisesRegex(SystemExit, "cannot be read: Is a directory"):
+                costs.read_costs(folder)
+
+    def test_costs_to_compare_with_are_read_before_their_folder_is_cleared(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "costs.json").write_text("torn")
+            words = [sys.executable, HERE / "costs.py", folder, "--against", f"{folder}/costs.json"]
+            done = subprocess.run(words, capture_output=True, text=True)
+            self.assertIn("is not a whole costs.json", done.stderr)
+            self.assertTrue((pathlib.Path(folder) / "costs.json").exists())
+
     def test_the_tiers_are_those_of_the_build(self):
         text = (HERE.parent / "CMakeLists.txt").read_text()
         quick = re.search(r"set\(MARS_QUICK_TIERS (.*?) CACHE", text).group(1).split()

@@ -25,6 +25,7 @@ import random
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -168,14 +169,28 @@ def copy_sources(root, folder, numbered):
     return hashlib.sha256(repr(sorted(contents.items())).encode()).hexdigest(), set(there)
 
 
+def kept_results(path, digest):
+    """What an earlier run has written of the same sources; nothing where it wrote none that can be read."""
+    nothing = {"digest": digest, "reference": {}, "mutants": {}}
+    if not path.exists():
+        return nothing
+    try:
+        kept = json.loads(path.read_text())
+        if {key: type(value) for key, value in kept.items()} != {key: type(value) for key, value in nothing.items()}:
+            raise ValueError
+    except (ValueError, AttributeError):
+        print(f"{path} is damaged: all tests run again", flush=True)
+        return nothing
+    return kept if kept["digest"] == digest else nothing
+
+
 class Judge:
     """`kept` is what DIR/results.json has: how tests end without a mutant, and which test finds which mutant."""
 
     def __init__(self, folder, digest, tiers):
         self.path, self.logs, self.tiers = folder / "results.json", folder / "logs", tiers
         self.tests = [test for test in trials.tests_of(folder / "build") if test.tier() in tiers]
-        kept = json.loads(self.path.read_text()) if self.path.exists() else {}
-        self.kept = kept if kept.get("digest") == digest else {"digest": digest, "reference": {}, "mutants": {}}
+        self.kept = kept_results(self.path, digest)
         self.reference = self.kept["reference"]
 
     def save(self):
@@ -225,6 +240,8 @@ class Judge:
 
 def run(folder, tiers, only):
     numbered, folder = read_list(LIST.read_text())[0], folder.resolve()
+    if unknown := sorted((only or set()) - numbered.keys()):
+        sys.exit(f"mutants: {LIST.relative_to(ROOT)} has no {unknown[0]}; its last is {max(numbered)}")
     digest, there = copy_sources(ROOT, folder / "tree", numbered)
     tree, build = folder / "tree", folder / "build"
     subprocess.run(["cmake", "-S", tree, "-B", build, "--preset", "release", "-DBUILD_TESTING=ON"], check=True)
@@ -232,15 +249,26 @@ def run(folder, tiers, only):
     subprocess.run(["cmake", "--build", build, "--target", *(name for tier in tiers for name in targets[tier])], check=True)
     judge = Judge(folder, digest, tiers)
     judge.run_reference()
-    for number in numbered.keys() - there:
-        print(f"{number:3}  {numbered[number].place()}: its text is gone")
+    gone = (only or numbered.keys()) - there
+    for number in sorted(gone):
+        print(f"{number:3}  {numbered[number].place()}: its text is gone; list the mutants again")
     judged = {number: judge.judge(number, numbered[number]) for number in sorted(there & (only or there))}
     counts = collections.Counter(judged.values())
     print(f"{len(judged)} mutants; " + "; ".join(f"found in tier {tier}: {counts[tier]}" for tier in tiers))
     for number, tier in judged.items():
         if not tier:
             print(f"No test finds {block_of(number, numbered[number])}")
-    return 1 if 5 * counts["quick"] < 4 * len(judged) or ("all" in tiers and counts[None]) else 0
+    too_few = 5 * counts["quick"] < 4 * len(judged) or ("all" in tiers and counts[None])
+    return 1 if gone or too_few else 0
+
+
+def numbers(text):
+    return {int(number) for number in text.split(",")}
+
+
+def end_by(number, _):
+    """Ends as by an exception, so that the tests that run end, too."""
+    sys.exit(128 + number)
 
 
 def main():
@@ -253,8 +281,10 @@ def main():
     runner = commands.add_parser("run", help="runs the tests as each mutant")
     runner.add_argument("--build", type=pathlib.Path, required=True, metavar="DIR")
     runner.add_argument("--tier", choices=["quick", "all"], default="quick")
-    runner.add_argument("--only", type=lambda text: {int(number) for number in text.split(",")}, metavar="N,...")
+    runner.add_argument("--only", type=numbers, metavar="N,...")
     args = parser.parse_args()
+    for ending in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
+        signal.signal(ending, end_by)
     if args.command == "list":
         return write_list(args.seed, args.count, args.check)
     return run(args.build, ["quick", "all"] if args.tier == "all" else ["quick"], args.only)

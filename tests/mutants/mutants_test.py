@@ -239,6 +239,20 @@ class Run(unittest.TestCase):
         self.assertEqual(other.kept["mutants"], {})
         self.assertIn("always_test is left out: failed without a mutant", said.getvalue())
 
+    def test_damaged_results_count_as_none(self):
+        file, said = self.folder / "results.json", io.StringIO()
+        nothing = {"digest": "of these sources", "reference": {}, "mutants": {}}
+        for text in ["", "[]", "{}", '{"digest": "of these sources", "reference": []}']:
+            file.write_text(text)
+            with contextlib.redirect_stdout(said):
+                self.assertEqual(mutants.kept_results(file, "of these sources"), nothing)
+        self.assertEqual(said.getvalue().count(f"{file} is damaged"), 4)
+
+    def test_numbers_without_a_mutant_are_refused_before_anything_is_built(self):
+        with self.assertRaisesRegex(SystemExit, "list.txt has no 99; its last is 30"):
+            mutants.run(self.folder, ["quick"], {1, 99})
+        self.assertEqual(list(self.folder.iterdir()), [])
+
     def test_tiers_and_order(self):
         tiers = [self.made("a_test", "", LABELS=[label]).tier() for label in ["unit", "world", "rule", "cluster"]]
         self.assertEqual(tiers, ["quick", "all", None, None])

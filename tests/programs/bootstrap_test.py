@@ -29,6 +29,21 @@ class Bootstrap(ProgramTest):
             if verb == "test" and shutil.which("gfortran"):
                 self.assertIn("fortran_pi", (self.folder / "build/build.ninja").read_text())
 
+    def bootstrap(self, *words):
+        return subprocess.run([SOURCES / "bootstrap", *words], cwd=SOURCES, capture_output=True, text=True)
+
+    def test_words_that_it_does_not_know_begin_nothing(self):
+        for words in [["tset"], ["test", "all", "-R", "farm"], ["demo", "now"]]:
+            done = self.bootstrap(*words)
+            self.assertEqual((done.returncode, done.stderr.split("\n")[0]),
+                             (2, f'bootstrap: there is no "{" ".join(words)}"; these are:'))
+
+    def test_help_begins_nothing(self):
+        for words in [["--help"], ["costs", "--help"], ["mutants", "--help"], ["fuzz", "--help"]]:
+            done = self.bootstrap(*words)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), words)
+        self.assertIn("./bootstrap demo", self.bootstrap("--help").stdout)
+
 
 if __name__ == "__main__":
     main()
