@@ -75,10 +75,11 @@ void WatchedPicture::begin_keyframe(const wire::Strip& header) {
 void WatchedPicture::mark_lines(const PastedStrip& strip) {
   const std::size_t first = std::size_t{strip.header.first_line} * width_;
   const std::size_t count = std::size_t{strip.header.last_line - strip.header.first_line} * width_;
-  std::fill_n(still_.begin() + static_cast<std::ptrdiff_t>(first), count, Mark::nothing);
+  const auto lines = std::span(still_).subspan(first, count);  // a node may have none, at the picture's end
+  std::ranges::fill(lines, Mark::nothing);
   for (const wire::Run& run : strip.constant)
     std::fill_n(&still_[std::size_t{run.line} * width_ + run.first], run.count, Mark::still);
-  line_marks_.assign(&still_[first], &still_[first] + count);
+  line_marks_.assign(lines.begin(), lines.end());
   for (const wire::Run& run : strip.moving)
     std::fill_n(&line_marks_[std::size_t{run.line} * width_ + run.first - first], run.count, Mark::moving);
 }
