@@ -6,9 +6,9 @@
 
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <vector>
 
+#include "tests/counted_new.h"
 #include "tests/hal/counting_backend.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
@@ -18,23 +18,13 @@ namespace {
 
 thread_local long allocations = 0;
 
-void* counted(std::size_t size, std::size_t alignment) {
-  ++allocations;
-  void* block = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-
 }  // namespace
 
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  return counted(size, static_cast<std::size_t>(alignment));
+void* mars::test::allocate(std::size_t size, std::size_t alignment) noexcept {
+  ++allocations;
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
 }
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+void mars::test::release(void* block) noexcept { std::free(block); }
 
 namespace mars::test {
 namespace {

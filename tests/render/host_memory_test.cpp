@@ -7,12 +7,12 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
-#include <new>
 #include <numeric>
 #include <vector>
 
 #include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"
+#include "tests/counted_new.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 
@@ -22,38 +22,34 @@ constexpr std::uint32_t kWidth = 200, kHeight = 150;
 constexpr std::size_t kPicture = std::size_t{kWidth} * kHeight * sizeof(std::uint32_t);
 
 thread_local bool is_host = false;
-std::array<void*, 1000> pictures;  // the host's own, of which some are freed
+std::array<void*, 1000> host_pictures;  // the host's own, of which some are freed
 std::size_t made = 0;
 std::size_t live = 0;
 std::size_t most = 0;
 std::atomic<std::int64_t> allocated{0};  // bytes that all threads have
 
-void* counted(std::size_t size) {
-  void* block = std::malloc(size);
-  if (block == nullptr) throw std::bad_alloc();
+}  // namespace
+
+void* mars::test::allocate(std::size_t size, std::size_t alignment) noexcept {
+  void* block = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (block == nullptr) return nullptr;
   allocated += static_cast<std::int64_t>(malloc_usable_size(block));
   if (is_host && size == kPicture) {
-    pictures.at(made++) = block;
+    host_pictures.at(made++) = block;
     most = std::max(most, ++live);
   }
   return block;
 }
 
-void release(void* block) {
+void mars::test::release(void* block) noexcept {
   if (is_host && block != nullptr) {
-    void** const end = pictures.data() + made;
-    void** const found = std::find(pictures.data(), end, block);
+    void** const end = host_pictures.data() + made;
+    void** const found = std::find(host_pictures.data(), end, block);
     if (found != end) *found = nullptr, --live;
   }
   allocated -= static_cast<std::int64_t>(malloc_usable_size(block));
   std::free(block);
 }
-
-}  // namespace
-
-void* operator new(std::size_t size) { return counted(size); }
-void operator delete(void* block) noexcept { release(block); }
-void operator delete(void* block, std::size_t) noexcept { release(block); }
 
 namespace mars::test {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <atomic>
 #include <cstdlib>
-#include <new>
 #include <numeric>
 
 #include "host/render/sinks/sink_pool.h"
 #include "node/firmware.h"
 #include "node/shadow/shadow_plan.h"
+#include "tests/counted_new.h"
 #include "tests/render/film_run.h"
 #include "tests/render/films.h"
 #include "tests/render/looks.h"
@@ -22,18 +22,17 @@ std::atomic<std::int64_t> most{0};
 
 }  // namespace
 
-void* operator new(std::size_t size) {
-  void* block = std::malloc(size);
-  if (block == nullptr) throw std::bad_alloc();
+void* mars::test::allocate(std::size_t size, std::size_t alignment) noexcept {
+  void* block = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+  if (block == nullptr) return nullptr;
   const std::int64_t now = allocated += static_cast<std::int64_t>(malloc_usable_size(block));
   for (std::int64_t before = most; before < now && !most.compare_exchange_weak(before, now);) continue;
   return block;
 }
-void operator delete(void* block) noexcept {
+void mars::test::release(void* block) noexcept {
   allocated -= static_cast<std::int64_t>(malloc_usable_size(block));
   std::free(block);
 }
-void operator delete(void* block, std::size_t) noexcept { operator delete(block); }
 
 namespace mars::test {
 namespace {
