@@ -36,9 +36,16 @@ void add_video_colors(Words& words, const char* pixels) {
               "-color_primaries", "bt709", "-color_trc", "bt709", "-colorspace", "bt709", "-color_range", "tv"});
 }
 
+// Encoders write other bytes with another number of threads, and would start as many as there are processors. With one
+// number a piece of a video is the same on every machine.
+constexpr const char* kThreads = "8";
+constexpr const char* kFrameThreads = "3";  // of x265, whose other threads change nothing
+
 void add_speed(Words& words, std::string_view encoder) {
+  add(words, {"-threads", kThreads});
   if (encoder == "libx264") add(words, {"-preset", "medium", "-profile:v", "high"});
-  if (encoder == "libx265") add(words, {"-preset", "medium", "-x265-params", "log-level=error"});
+  if (encoder == "libx265")
+    add(words, {"-preset", "medium", "-x265-params", std::string("log-level=error:frame-threads=") + kFrameThreads});
   if (encoder == "libvpx-vp9") add(words, {"-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1"});
   if (encoder == "libsvtav1") add(words, {"-preset", "8"});
   if (encoder == "libaom-av1") add(words, {"-b:v", "0", "-cpu-used", "6", "-row-mt", "1"});

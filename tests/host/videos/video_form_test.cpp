@@ -10,7 +10,7 @@ namespace {
 TEST(VideoForm, EndingsSayWhichKind) {
   for (const char* name : {"a.mp4", "b/c.MOV", "a.mkv", "a.webm", "a.gif", "a.apng", "a.m4v"})
     EXPECT_TRUE(is_video_name(name)) << name;
-  for (const char* name : {"a", "mp4", "a.png", "a.avi", "a.mp4/", ".mp4", "a.mp4.frames"})
+  for (const char* name : {"a", "mp4", "a.png", "a.avi", "a.mp4/", ".mp4", "a.mp4.mars-work"})
     EXPECT_FALSE(is_video_name(name)) << name;
 }
 
