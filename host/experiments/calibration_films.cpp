@@ -7,6 +7,8 @@
 #include <string_view>
 #include <utility>
 
+#include "host/content/elementary/elementary.h"
+
 namespace mars::experiments {
 namespace {
 
@@ -81,7 +83,7 @@ constexpr Bodies kBodies[] = {
 };
 
 double wave(double x, double y) {
-  return 0.5 + 0.4 * std::sin(4 * std::numbers::pi * x) * std::cos(6 * std::numbers::pi * y);
+  return 0.5 + 0.4 * elementary::sin(4 * std::numbers::pi * x) * elementary::cos(6 * std::numbers::pi * y);
 }
 
 // Of four joints, of a place from 0 to 1 along the shape: those of the skin's ends and middle.

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "host/content/elementary/elementary.h"
+
 namespace mars::preview {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr Color kGround{0.30f, 0.33f, 0.38f};
 
 // 1, 2 or 5 times a power of ten, such that about ten of them make `extent`.
 double grid_step(double extent) {
-  const double power = std::pow(10, std::floor(std::log10(extent / 10)));
+  const double power = elementary::pow(10, std::floor(elementary::log10(extent / 10)));
   for (const double times : {1.0, 2.0, 5.0})
     if (times * power >= extent / 10) return times * power;
   return 10 * power;

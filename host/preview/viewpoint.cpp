@@ -1,7 +1,6 @@
 #include "host/preview/viewpoint.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <set>
@@ -10,6 +9,7 @@
 
 #include "host/content/animator/reading/read_materials.h"
 #include "host/content/animator/reading/rig.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::preview {
@@ -19,11 +19,12 @@ constexpr double kFov = 30;  // vertical, degrees
 constexpr double kMargin = 1.08;
 constexpr double kNearPlane = 1e-9, kFarPlane = 1e12;  // that a compiled film allows
 
-const double kFocal = 1 / std::tan(kFov / 2 * modeler::kDegree);
+const double kFocal = 1 / elementary::tan(kFov / 2 * modeler::kDegree);
 
 glm::dvec3 outward(const Orbit& orbit) {
   const double turn = orbit.turn * modeler::kDegree, height = orbit.height * modeler::kDegree;
-  return {std::cos(height) * std::cos(turn), std::cos(height) * std::sin(turn), std::sin(height)};
+  return {elementary::cos(height) * elementary::cos(turn), elementary::cos(height) * elementary::sin(turn),
+          elementary::sin(height)};
 }
 
 }  // namespace
@@ -33,8 +34,8 @@ Orbit orbit_from(From from, const Ball& subject, double aspect) {
   orbit.center = subject.center;
   if (from != From::front) orbit.turn = -90;
   if (from == From::top) orbit.height = 90;
-  const double half = std::atan(std::min(1.0, aspect) / kFocal);
-  orbit.distance = kMargin * std::max(subject.radius, 1e-6) / std::sin(half);
+  const double half = elementary::atan(std::min(1.0, aspect) / kFocal);
+  orbit.distance = kMargin * std::max(subject.radius, 1e-6) / elementary::sin(half);
   return orbit;
 }
 
@@ -47,8 +48,8 @@ Orbit orbit_near(const wire::Camera& camera, const Ball& subject) {
   const double depth = before > kMargin * subject.radius ? before : kMargin * std::max(subject.radius, 1e-6);
   Orbit orbit;
   orbit.center = eye - depth * out;
-  orbit.turn = std::atan2(out.y, out.x) / modeler::kDegree;
-  orbit.height = std::atan2(out.z, std::hypot(out.x, out.y)) / modeler::kDegree;
+  orbit.turn = elementary::atan2(out.y, out.x) / modeler::kDegree;
+  orbit.height = elementary::atan2(out.z, elementary::hypot(out.x, out.y)) / modeler::kDegree;
   // As large as the camera showed it.
   const double shown_at = camera.projection == wire::Projection::orthographic ? 1 : depth;
   orbit.distance = std::max(shown_at * kFocal / camera.focal, 1e-6);
@@ -75,7 +76,7 @@ wire::Camera parallel_camera_of(const Orbit& orbit) {
 
 wire::Camera camera_of(const Orbit& orbit) {
   const double turn = orbit.turn * modeler::kDegree;
-  const glm::dvec3 out = outward(orbit), right(-std::sin(turn), std::cos(turn), 0);
+  const glm::dvec3 out = outward(orbit), right(-elementary::sin(turn), elementary::cos(turn), 0);
   const glm::dvec3 eye = orbit.center + orbit.distance * out;
   const std::array<glm::dvec3, 3> axes{right, glm::cross(out, right), out};
   wire::Camera camera;

@@ -130,7 +130,7 @@ LightView near_view(const Vector& axis, const Vector& place, double nearest, boo
 
 // Of places that are drawn, from the eye.
 double farthest_place(const shape::Projection& p) {
-  return p.parallel ? std::hypot(double{p.far}, double{p.radius}) : double{p.far} / p.corner;
+  return p.parallel ? std::sqrt(double{p.far} * p.far + double{p.radius} * p.radius) : double{p.far} / p.corner;
 }
 
 // The step is a pixel at the nearest distance that is drawn, of parallel projection a part of a pixel, but so that the

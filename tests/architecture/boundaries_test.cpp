@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/architecture/sources.h"
@@ -100,6 +102,32 @@ TEST(Boundaries, SdlInOneHostFile) {
 
 TEST(Boundaries, GetenvInOneSettingsFile) {
   EXPECT_EQ(files_matching("getenv", std::regex("\\b(secure_)?getenv\\s*\\(")), Files{"hal/messages/settings.cpp"});
+}
+
+// Whether the text calls a function of the C library's, not one of the same name in a namespace or class.
+bool calls(const std::string& text, const std::string& function) {
+  for (std::size_t at = text.find(function + "("); at != std::string::npos; at = text.find(function + "(", at + 1)) {
+    const std::string before = text.substr(text.rfind('\n', at) + 1, at - text.rfind('\n', at) - 1);
+    const bool qualified = before.ends_with("::") && !before.ends_with("std::") && before != "::";
+    const bool other = !before.empty() && (std::isalnum(before.back()) ||
+                                           std::string_view("_.>").find(before.back()) != std::string_view::npos);
+    if (!qualified && !other && before.find("//") == std::string::npos) return true;
+  }
+  return false;
+}
+
+// Their results depend on the C library's version and on the processor (host/content/elementary/elementary.h).
+TEST(Boundaries, ElementaryFunctionsAreOurOwn) {
+  Files files;
+  for (const Source& source : sources())
+    for (const char* function :
+         {"sin", "cos",  "tan",   "sincos", "asin", "acos",  "atan",  "atan2", "sinh", "cosh", "tanh",
+          "exp", "exp2", "expm1", "log",    "log2", "log10", "log1p", "pow",   "cbrt", "hypot"})
+      for (const char* kind : {"", "f", "l"})
+        if (!begins(source.path, "host/content/elementary/") && calls(source.text, std::string(function) + kind))
+          files.insert(source.path);
+  // Figures of experiments, forecasts and simulated machines, which are no part of a film.
+  EXPECT_EQ(files, (Files{"hal/simulated/pace.cpp", "host/experiments/spread.cpp", "host/render/events/course.cpp"}));
 }
 
 // whole_file.h writes files; these would leave half of one, and follow links.
@@ -199,7 +227,7 @@ TEST(Boundaries, RenderingRunsOneWay) {
 TEST(Boundaries, HostsToolsStandOnOneAnother) {
   const auto below = [](const std::string& from, const std::vector<std::string>& known) {
     expect_includes(from, [&](const std::string& include) {
-      if (!begins(include, "host/")) return true;
+      if (!begins(include, "host/") || begins(include, "host/content/elementary/")) return true;
       return std::any_of(known.begin(), known.end(), [&](const auto& folder) { return begins(include, folder); });
     });
   };
@@ -208,6 +236,7 @@ TEST(Boundaries, HostsToolsStandOnOneAnother) {
   const std::string film = "host/content/film/", preview = "host/preview/", images = "host/images/",
                     child = "host/child/", cli = "host/cli/", window = "host/window/",
                     pictures = "host/render/pictures/", compositor = "host/render/compositor/", videos = "host/videos/";
+  below("host/content/elementary/", {});
   below(child, {child});
   below(cli, {keys, document, cli});
   below(keys, {keys});

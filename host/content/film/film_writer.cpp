@@ -1,13 +1,13 @@
 #include "host/content/film/film_writer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/camera_points.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/film/light_writer.h"
 #include "host/content/film/shape_writer.h"
 
@@ -31,7 +31,7 @@ double focal_at(const animator::CameraMotion& motion, std::uint32_t frame) {
     return 2 / within(keys::range_of("camera", "height"), animator::value_at(motion.height, frame));
   const double half =
       within(keys::range_of("camera", "fov"), animator::value_at(motion.fov, frame)) * (std::numbers::pi / 360);
-  return std::cos(half) / std::sin(half);
+  return elementary::cos(half) / elementary::sin(half);
 }
 
 }  // namespace
@@ -73,7 +73,8 @@ wire::Camera camera_at(const animator::Film& film, std::uint32_t frame, animator
   camera.shift_y = within({-wire::kMostShift, wire::kMostShift}, shift.y);
   camera.near = motion.near;
   camera.far = motion.far;
-  camera.exposure = std::exp2(within(keys::range_of("camera", "exposure"), animator::value_at(motion.exposure, frame)));
+  camera.exposure =
+      elementary::exp2(within(keys::range_of("camera", "exposure"), animator::value_at(motion.exposure, frame)));
   return camera;
 }
 

@@ -1,7 +1,6 @@
 #include "host/content/film/light_writer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -11,6 +10,7 @@
 #include "host/content/animator/pose/direction.h"
 #include "host/content/animator/reading/read_lights.h"
 #include "host/content/document/shown_color.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::film {
 namespace {
@@ -30,7 +30,7 @@ double half_in_radians(double degrees) { return degrees * (std::numbers::pi / 36
 // Of half the angle that a cone opens.
 float cosine_of(double angle) {
   const keys::Range& range = keys::range_of("light", "cone");
-  return static_cast<float>(std::cos(half_in_radians(std::clamp(angle, range.lowest, range.highest))));
+  return static_cast<float>(elementary::cos(half_in_radians(std::clamp(angle, range.lowest, range.highest))));
 }
 
 class LightWriter {
@@ -76,7 +76,7 @@ class LightWriter {
     const double size = within("size", motion, motion.size, frame);
     const bool far = motion.kind == wire::LightKind::directional;
     light.casts = 1;
-    light.size = static_cast<float>(far ? std::tan(half_in_radians(size)) : size / 2);
+    light.size = static_cast<float>(far ? elementary::tan(half_in_radians(size)) : size / 2);
   }
 
   void aim(const animator::LightMotion& motion, const glm::dvec3& place, std::uint32_t frame,

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "host/content/animator/pose/angles.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::importer {
 namespace {
@@ -32,7 +33,7 @@ double distance(const glm::dmat3& one, const glm::dmat3& other) {
 // The rotation of a polar decomposition, by Newton's way (Higham, "Computing the polar decomposition", 1986); none of
 // what is flat or mirrors.
 std::optional<glm::dmat3> rotation_in(const glm::dmat3& linear) {
-  if (!(glm::determinant(linear) > kFlat * std::pow(distance(linear, glm::dmat3(0)), 3))) return std::nullopt;
+  if (!(glm::determinant(linear) > kFlat * elementary::pow(distance(linear, glm::dmat3(0)), 3))) return std::nullopt;
   glm::dmat3 turn = linear;
   for (int step = 0; step < 60; ++step) {
     const glm::dmat3 next = 0.5 * (turn + glm::transpose(glm::inverse(turn)));
@@ -115,7 +116,7 @@ std::vector<glm::dmat4> JointMotions::moves_at(std::size_t frame) const {
       continue;
     }
     const glm::dmat4& before = nodes_at_rest_[node];
-    const double flat = kFlat * std::pow(distance(glm::dmat3(before), glm::dmat3(0)), 3);
+    const double flat = kFlat * elementary::pow(distance(glm::dmat3(before), glm::dmat3(0)), 3);
     moves.push_back(std::abs(glm::determinant(glm::dmat3(before))) > flat
                         ? now[node] * glm::inverse(before)
                         : translation(glm::dvec3(now[node][3] - before[3])));

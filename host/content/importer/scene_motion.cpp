@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "hal/failure/failure.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/importer/assimp_matrix.h"
 #include "host/content/importer/loaded_scene.h"
 #include "host/content/importer/scene_nodes.h"
@@ -162,14 +163,14 @@ class SceneMotionReader {
   void add_camera(const aiCamera& given) {
     const auto node = looking(given.mName, given.mPosition, given.mLookAt, given.mUp);
     if (!node) return;
-    const double unit = std::cbrt(std::abs(glm::determinant(glm::dmat3(nodes_.root))));
+    const double unit = elementary::cbrt(std::abs(glm::determinant(glm::dmat3(nodes_.root))));
     const double aspect = given.mAspect > 0 ? double(given.mAspect) : kUsualAspect;
     GltfCamera camera{*node, {}, 1, {}, {}, {}};
     if (given.mAspect > 0) camera.aspect = aspect;
     if (given.mOrthographicWidth > 0)
       camera.ymag = double(given.mOrthographicWidth) / aspect;
     else
-      camera.yfov = 2 * std::atan(std::tan(double(given.mHorizontalFOV) / 2) / aspect);
+      camera.yfov = 2 * elementary::atan(elementary::tan(double(given.mHorizontalFOV) / 2) / aspect);
     if (given.mClipPlaneNear > 0) camera.znear = double(given.mClipPlaneNear) * unit;
     if (given.mClipPlaneFar > 0) camera.zfar = double(given.mClipPlaneFar) * unit;
     if (!camera.yfov || *camera.yfov > 0) read_.cameras.push_back(camera);

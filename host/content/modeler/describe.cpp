@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "host/content/document/fields.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::modeler {
@@ -194,7 +195,8 @@ std::string materials_of(const Model& model) {
 }  // namespace
 
 double skew_of(const Joint& joint) {
-  const double angle = std::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / std::numbers::pi;
+  const double angle =
+      elementary::acos(std::clamp(glm::dot(joint.x_axis, joint.y_axis), -1.0, 1.0)) * 180 / std::numbers::pi;
   return std::abs(angle - 90) < kSquare ? 0 : angle;
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <utility>
 
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/bent_skin.h"
 
 namespace mars::modeler {
@@ -66,7 +66,7 @@ void grow(std::optional<Box>& box, const Box& by) {
 }  // namespace
 
 glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
-  return rotation_of(axis, std::sin(angle), std::cos(angle));
+  return rotation_of(axis, elementary::sin(angle), elementary::cos(angle));
 }
 
 glm::dmat3 rotation_by_degrees(const glm::dvec3& axis, double degrees) {

@@ -7,6 +7,8 @@
 #include <glm/common.hpp>
 #include <numbers>
 
+#include "host/content/elementary/elementary.h"
+
 namespace mars::modeler {
 namespace {
 
@@ -36,12 +38,12 @@ double swelling_at(std::span<const Swelling> swellings, double at, double angle)
 
 // The control points of a closed curve; `reach` makes up for what a B-spline falls short of its polygon.
 std::vector<glm::dvec3> control_points(const Ring& ring, const Loft& loft) {
-  const double reach = 3 / (2 + std::cos(2 * pi / loft.around));
+  const double reach = 3 / (2 + elementary::cos(2 * pi / loft.around));
   std::vector<glm::dvec3> points;
   for (int i = 0; i < loft.around; ++i) {
-    const double even = 2 * pi * i / loft.around, angle = even - loft.crowding * std::sin(even);
-    const double square = std::cos(angle) > 0 ? ring.square : ring.square_back;
-    const double front = squared(std::cos(angle), square), side = squared(std::sin(angle), square);
+    const double even = 2 * pi * i / loft.around, angle = even - loft.crowding * elementary::sin(even);
+    const double square = elementary::cos(angle) > 0 ? ring.square : ring.square_back;
+    const double front = squared(elementary::cos(angle), square), side = squared(elementary::sin(angle), square);
     const double out = swelling_at(loft.swellings, ring.at, angle);
     const double forward = reach * front * ((front > 0 ? ring.front : ring.back) + out);
     const double sideways = reach * side * (ring.width + out);

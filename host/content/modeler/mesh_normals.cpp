@@ -1,12 +1,13 @@
 #include "host/content/modeler/mesh_normals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "host/content/elementary/elementary.h"
 
 namespace mars::modeler {
 namespace {
@@ -104,7 +105,7 @@ class Smoother {
   // An edge of more or fewer than two faces, or that both run the same way, stays sharp.
   void join_over_edges() {
     const std::vector<Edge> edges = sorted_edges();
-    const double least = std::cos(mesh_.crease * std::numbers::pi / 180) - kRounding;
+    const double least = elementary::cos(mesh_.crease * std::numbers::pi / 180) - kRounding;
     for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
       while (end < edges.size() && edges[end].key() == edges[first].key()) ++end;
       if (end - first != 2) continue;
@@ -131,7 +132,7 @@ class Smoother {
     const glm::dvec3 here = place(corner), to = place(corner + 1 < end ? corner + 1 : first) - here,
                      from = place(corner > first ? corner - 1 : end - 1) - here;
     const glm::dvec3 across = glm::cross(to, from);
-    const double angle = std::atan2(glm::length(across), glm::dot(to, from));
+    const double angle = elementary::atan2(glm::length(across), glm::dot(to, from));
     return glm::dot(across, face_normals_[face]) < 0 ? 2 * std::numbers::pi - angle : angle;
   }
 

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <unordered_map>
 #include <utility>
+
+#include "host/content/elementary/elementary.h"
 
 namespace mars::modeler {
 namespace {
@@ -163,7 +164,7 @@ std::vector<double> parts_of_sums(std::size_t count) {
     for (std::size_t wave = 0; wave < count; ++wave) {
       if (2 * wave == count) continue;  // whose sums are 0
       const double half = std::numbers::pi * double(wave) / double(count);
-      parts[m] += std::cos(half * (2 * double(m) - 1)) / (2 * std::cos(half)) / double(count);
+      parts[m] += elementary::cos(half * (2 * double(m) - 1)) / (2 * elementary::cos(half)) / double(count);
     }
   return parts;
 }
@@ -243,8 +244,8 @@ class QuadPatches {
     for (std::size_t k = 0; k < count; ++k) {
       std::vector<Share> shares;
       for (std::size_t j = 0; j < count; ++j)
-        shares.push_back(
-            {before[j], 2 * std::cos(2 * std::numbers::pi * double(j + count - k) / double(count)) / double(count)});
+        shares.push_back({before[j], 2 * elementary::cos(2 * std::numbers::pi * double(j + count - k) / double(count)) /
+                                         double(count)});
       ways.push_back(terms_of(shares));
     }
     const double far = farthest_of_means(corner, ways);
@@ -271,7 +272,7 @@ class QuadPatches {
   // lengths of its first part.
   double bend_at(std::uint32_t point) const {
     if (!is_irregular(point)) return 0;
-    return std::cos(2 * std::numbers::pi / double(topology_.around(point).edges.size()));
+    return elementary::cos(2 * std::numbers::pi / double(topology_.around(point).edges.size()));
   }
 
   // Let an edge have the Bezier points p, and the points beside it be q and r. Normals on its sides are the same where

@@ -1,10 +1,11 @@
 #include "host/experiments/trials/trial_films.h"
 
 #include <array>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <span>
+
+#include "host/content/elementary/elementary.h"
 
 namespace mars::trials {
 namespace {
@@ -46,7 +47,7 @@ json waves(int side, bool mesh) {
     json row = json::array();
     for (int j = 0; j <= side; ++j) {
       const double x = static_cast<double>(i) / side, y = static_cast<double>(j) / side;
-      row.push_back({x, y, 0.5 + 0.4 * std::sin(9 * x) * std::cos(14 * y)});
+      row.push_back({x, y, 0.5 + 0.4 * elementary::sin(9 * x) * elementary::cos(14 * y)});
       const int at = i * (side + 1) + j;
       if (i == side || j == side) continue;
       faces.push_back({at, at + side + 1, at + side + 2});

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "host/content/elementary/elementary.h"
+
 namespace mars::studio {
 namespace {
 
@@ -52,7 +54,7 @@ void pan(preview::Orbit& orbit, const glm::dvec2& by, double height) {
 }
 
 void zoom(preview::Orbit& orbit, const glm::dvec2& by, const glm::dvec2& spot, double height) {
-  const double distance = std::clamp(orbit.distance * std::exp(kGrowthAPixel * by.y), 1e-6, 1e9);
+  const double distance = std::clamp(orbit.distance * elementary::exp(kGrowthAPixel * by.y), 1e-6, 1e9);
   pan(orbit, (distance / orbit.distance - 1) * spot, height);
   orbit.distance = distance;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/bent_skin.h"
 #include "host/studio/stage/reach_place.h"
 
@@ -34,7 +35,7 @@ std::vector<glm::dvec3> outermost(const std::vector<glm::dvec3>& points) {
   for (std::size_t i = 0; i < kMostPoints; ++i) {
     const double z = 1 - (2.0 * double(i) + 1) / kMostPoints, angle = double(i) * std::numbers::pi * (3 - std::sqrt(5));
     const double across = std::sqrt(1 - z * z);
-    const glm::dvec3 way(across * std::cos(angle), across * std::sin(angle), z);
+    const glm::dvec3 way(across * elementary::cos(angle), across * elementary::sin(angle), z);
     const auto nearer = [&](const glm::dvec3& one, const glm::dvec3& two) {
       return glm::dot(one, way) < glm::dot(two, way);
     };

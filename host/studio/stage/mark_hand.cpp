@@ -1,11 +1,11 @@
 #include "host/studio/stage/mark_hand.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "host/content/animator/pose/joint_frames.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/hand_words.h"
 
@@ -82,10 +82,10 @@ std::optional<Json> MarkHand::sized() const {
     return step("reach=" + shown_number(std::max(state_.reach + glm::dot(*by, way), kLeastReach)));
   }
   const double distance = glm::length(*state_.aim - state_.place);
-  const double radius = distance * std::tan(state_.angle / 2 * modeler::kDegree);
+  const double radius = distance * elementary::tan(state_.angle / 2 * modeler::kDegree);
   const auto by = mouse_.along(*state_.aim + radius * state_.up, state_.up);
   if (!by || distance == 0) return std::nullopt;
-  const double wide = 2 * std::atan((radius + glm::dot(*by, state_.up)) / distance) / modeler::kDegree;
+  const double wide = 2 * elementary::atan((radius + glm::dot(*by, state_.up)) / distance) / modeler::kDegree;
   const double angle = std::clamp(wide, kLeastAngle, kMostAngle);
   if (!grip_.mark->light) return step("fov=" + shown_number(angle));
   return step("cone=" + shown_numbers({angle * state_.inner / state_.angle, angle}));

@@ -7,6 +7,7 @@
 #include "host/content/animator/pose/camera_points.h"
 #include "host/content/animator/pose/direction.h"
 #include "host/content/document/text.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::studio {
@@ -21,7 +22,7 @@ constexpr const char* kMarkAxisNames[] = {"x", "y", "z"};
 double half_width(const MarkState& state) {
   if (state.height > 0) return state.height / 2;
   const double distance = state.aim ? glm::length(*state.aim - state.place) : 0;
-  return distance * std::tan(std::min(state.angle, kMostShownAngle) / 2 * modeler::kDegree);
+  return distance * elementary::tan(std::min(state.angle, kMostShownAngle) / 2 * modeler::kDegree);
 }
 
 // A unit vector across `axis`, towards `wanted` where that is not along it.
@@ -42,7 +43,7 @@ MarkState camera_state(const Project& project, const Moments& moments) {
   if (camera.projection == wire::Projection::orthographic)
     state.height = 2 / camera.focal;
   else if (camera.projection == wire::Projection::perspective)
-    state.angle = 2 * std::atan(1 / camera.focal) / modeler::kDegree;
+    state.angle = 2 * elementary::atan(1 / camera.focal) / modeler::kDegree;
   return state;
 }
 
@@ -114,7 +115,7 @@ class MarkMaker {
     std::vector<glm::dvec3> circle;
     for (int step = 0; step <= kCircleSteps; ++step) {
       const double angle = 2 * std::numbers::pi * step / kCircleSteps;
-      circle.push_back(center + std::cos(angle) * one + std::sin(angle) * other);
+      circle.push_back(center + elementary::cos(angle) * one + elementary::sin(angle) * other);
     }
     add_line(circle);
   }
@@ -150,7 +151,7 @@ class MarkMaker {
   void add_sun() {
     add_circle(state_.place, kBulbPixels * pixel_ * screen_.right(), kBulbPixels * pixel_ * screen_.up());
     for (int ray = 0; ray < 8; ++ray) {
-      const double angle = std::numbers::pi / 4 * ray, x = std::cos(angle), y = std::sin(angle);
+      const double angle = std::numbers::pi / 4 * ray, x = elementary::cos(angle), y = elementary::sin(angle);
       add_line({seen(1.25 * kBulbPixels * x, 1.25 * kBulbPixels * y), seen(kRayPixels * x, kRayPixels * y)});
     }
     add_line({state_.place, state_.center});

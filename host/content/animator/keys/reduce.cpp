@@ -11,6 +11,7 @@
 #include "host/content/animator/keys/spline_fit.h"
 #include "host/content/animator/keys/track_splines.h"
 #include "host/content/animator/keys/written.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::animator {
@@ -20,7 +21,7 @@ constexpr double kGrains = 20;  // of an allowed error: what keys are rounded to
 constexpr std::size_t kMostReduced = 100'000;
 
 // A power of ten, so that keys have few digits.
-double grain_for(double error) { return std::pow(10, std::floor(std::log10(error / kGrains))); }
+double grain_for(double error) { return elementary::pow(10, std::floor(elementary::log10(error / kGrains))); }
 
 document::Json like(const document::Json& value, const glm::dvec3& numbers) {
   return value.is_array() ? written(numbers) : written(numbers.x);

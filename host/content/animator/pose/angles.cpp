@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/pose/rotation.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::animator {
@@ -35,7 +36,7 @@ glm::dvec3 fitted(const modeler::Joint& joint, const glm::dvec3& pose, const glm
 // The angle about `axis`, a unit vector, that takes `from` to `to` as seen along it.
 double angle_about(const glm::dvec3& axis, const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 across = glm::cross(axis, from), aim = glm::cross(axis, to);
-  return std::atan2(glm::dot(axis, glm::cross(across, aim)), glm::dot(across, aim)) / modeler::kDegree;
+  return elementary::atan2(glm::dot(axis, glm::cross(across, aim)), glm::dot(across, aim)) / modeler::kDegree;
 }
 
 // Which of two poses of one orientation is the better.
@@ -58,7 +59,7 @@ class Unturned {
     const glm::dvec3 aside = glm::cross(x_, aim_);
     const double square = glm::dot(aside, aside) - cosine_of_axes * cosine_of_axes;
     cosine_ = std::sqrt(std::max(square, 0.0)) / sine_of_axes;
-    second_ = std::atan2(glm::dot(x_, aim_) / sine_of_axes, cosine_) / modeler::kDegree;
+    second_ = elementary::atan2(glm::dot(x_, aim_) / sine_of_axes, cosine_) / modeler::kDegree;
     locked_ = glm::dot(aside, aside) < kLocked * kLocked;
   }
 

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/pose/rotation.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::animator {
 namespace {
@@ -24,7 +25,7 @@ glm::dvec3 direction_at(const Channel<glm::dvec3>& channel, std::uint32_t frame)
   if (channel[stretch.from].ease.spline && stretch.from != stretch.to) return on_spline(channel, stretch);
   if (from == to) return from;
   const glm::dvec3 across = glm::cross(from, to);
-  const double sine = glm::length(across), angle = std::atan2(sine, glm::dot(from, to));
+  const double sine = glm::length(across), angle = elementary::atan2(sine, glm::dot(from, to));
   if (angle < 1e-12) return from;
   const glm::dvec3 other = std::abs(from.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
   const glm::dvec3 axis = sine > 1e-12 ? across / sine : glm::normalize(glm::cross(from, other));

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/content/animator/pose/angles.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::animator {
@@ -89,7 +90,8 @@ double most_straying(const glm::dvec3& from, const glm::dvec3& to, double degree
   const double nearest = std::min(from_pole(from.y), from_pole(to.y)) - degrees / 2;
   if (nearest <= 0 || std::floor((from.y + 90) / 180) != std::floor((to.y + 90) / 180))
     return std::numeric_limits<double>::infinity();
-  const double secant = 1 / std::sin(nearest * modeler::kDegree), tangent = 1 / std::tan(nearest * modeler::kDegree);
+  const double secant = 1 / elementary::sin(nearest * modeler::kDegree),
+               tangent = 1 / elementary::tan(nearest * modeler::kDegree);
   // Else the numbers of the second pose are whole turns away from where the turn ends.
   if (std::max(std::abs(from.x - to.x), std::abs(from.z - to.z)) + degrees * secant >= 360)
     return std::numeric_limits<double>::infinity();

@@ -1,8 +1,9 @@
 #include "host/content/animator/pose/rotation.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+
+#include "host/content/elementary/elementary.h"
 
 namespace mars::animator {
 namespace {
@@ -33,9 +34,9 @@ Turn turn_between(const glm::dmat3& first, const glm::dmat3& last) {
   const glm::dvec3 sine_axis(skew[1][2], skew[2][0], skew[0][1]);
   const double cosine = (turn[0][0] + turn[1][1] + turn[2][2] - 1) / 2;
   const double sine = glm::length(sine_axis);
-  const double angle = std::atan2(sine, cosine);
+  const double angle = elementary::atan2(sine, cosine);
   if (angle < kNothing) return {{1, 0, 0}, 0};
-  if (cosine < -0.5) return {axis_near_half_turn(turn, sine_axis, std::cos(angle)), angle};
+  if (cosine < -0.5) return {axis_near_half_turn(turn, sine_axis, elementary::cos(angle)), angle};
   return {sine_axis / sine, angle};
 }
 

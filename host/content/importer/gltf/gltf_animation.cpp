@@ -8,6 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/joint.h"
 
 namespace mars::importer {
@@ -74,9 +75,9 @@ std::array<double, 4> slerp(const std::array<double, 4>& from, std::array<double
   cosine = std::abs(cosine);
   double a = 1 - part, b = part;
   if (cosine < kNearlyOne) {
-    const double angle = std::acos(cosine);
-    a = std::sin(angle * (1 - part)) / std::sin(angle);
-    b = std::sin(angle * part) / std::sin(angle);
+    const double angle = elementary::acos(cosine);
+    a = elementary::sin(angle * (1 - part)) / elementary::sin(angle);
+    b = elementary::sin(angle * part) / elementary::sin(angle);
   }
   for (int i = 0; i < 4; ++i) to[i] = a * from[i] + b * sign * to[i];
   return normalized(to);

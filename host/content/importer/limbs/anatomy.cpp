@@ -6,6 +6,7 @@
 #include <glm/trigonometric.hpp>
 #include <initializer_list>
 
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 
 namespace mars::importer {
@@ -168,17 +169,17 @@ class Anatomist {
 
   // Degrees by which what hangs is forward, and by which it is held out to the left.
   double forward(const glm::dvec3& bone) const {
-    return glm::degrees(std::atan2(glm::dot(bone, axes_[0]), -glm::dot(bone, axes_[2])));
+    return glm::degrees(elementary::atan2(glm::dot(bone, axes_[0]), -glm::dot(bone, axes_[2])));
   }
   double aside(const glm::dvec3& bone) const {
-    return glm::degrees(std::atan2(glm::dot(bone, axes_[1]), -glm::dot(bone, axes_[2])));
+    return glm::degrees(elementary::atan2(glm::dot(bone, axes_[1]), -glm::dot(bone, axes_[2])));
   }
 
   // The axes turned so, by the least, that z is along the bone, away from where it hangs.
   glm::dmat3 along(const glm::dvec3& bone) const {
     const glm::dvec3 down = -axes_[2], axis = glm::cross(down, bone);
     const double sine = glm::length(axis), cosine = glm::dot(down, bone);
-    return sine < 1e-9 ? axes_ : modeler::rotation(axis / sine, std::atan2(sine, cosine)) * axes_;
+    return sine < 1e-9 ? axes_ : modeler::rotation(axis / sine, elementary::atan2(sine, cosine)) * axes_;
   }
 
   void add_leg(Side side) {
@@ -203,9 +204,11 @@ class Anatomist {
 
   static Bend bend_of(const glm::dmat3& axes, const glm::dvec3& forearm) {
     const glm::dvec3 hanging = glm::transpose(axes) * forearm;
-    const double out = std::hypot(hanging.x, hanging.y), aside = glm::degrees(std::atan2(hanging.y, hanging.x));
-    if (out < kBentElbow || std::abs(aside) > kMostTwist) return {glm::degrees(std::atan2(hanging.x, -hanging.z)), 0};
-    return {glm::degrees(std::atan2(out, -hanging.z)), aside};
+    const double out = elementary::hypot(hanging.x, hanging.y),
+                 aside = glm::degrees(elementary::atan2(hanging.y, hanging.x));
+    if (out < kBentElbow || std::abs(aside) > kMostTwist)
+      return {glm::degrees(elementary::atan2(hanging.x, -hanging.z)), 0};
+    return {glm::degrees(elementary::atan2(out, -hanging.z)), aside};
   }
 
   // The forearm turns about the axis about which it is bent at rest; what that differs from an arm that hangs, the

@@ -13,6 +13,7 @@
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/document/document.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::importer {
 namespace {
@@ -155,7 +156,7 @@ Json camera_text(const glm::dvec3& least, const glm::dvec3& greatest) {
   const glm::dvec3 toward = glm::normalize(kToCamera);
   const double distance = std::max(distance_to_see(half, toward), radius * 0.1);
   const auto short_text = [&](const glm::dvec3& point) {
-    const double grain = std::pow(10, std::floor(std::log10(radius)) - 3);
+    const double grain = elementary::pow(10, std::floor(elementary::log10(radius)) - 3);
     return text_of(animator::rounded(glm::round(point / grain) * grain));
   };
   Json json{{"eye", short_text(middle + distance * toward)}, {"at", short_text(middle)}};

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "host/content/elementary/elementary.h"
+
 namespace mars::importer {
 namespace {
 
@@ -24,7 +26,8 @@ void add_spindle(Spindles& all, const glm::dvec3& begin, const glm::dvec3& end, 
   all.vertices.push_back(end);
   for (int i = 0; i < kSides; ++i) {
     const double angle = 2 * std::numbers::pi * i / kSides;
-    all.vertices.push_back(begin + waist * (end - begin) + radius * (std::cos(angle) * u + std::sin(angle) * v));
+    all.vertices.push_back(begin + waist * (end - begin) +
+                           radius * (elementary::cos(angle) * u + elementary::sin(angle) * v));
   }
   for (std::size_t i = 0; i < kSides; ++i) {
     const std::size_t one = first + 2 + i, other = first + 2 + (i + 1) % kSides;

@@ -10,6 +10,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/document/shown_color.h"
 #include "host/content/document/text.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/importer/patches/patch_scene.h"
 #include "host/content/importer/patches/pov_values.h"
 
@@ -38,7 +39,7 @@ glm::dmat4 scaled(const glm::dvec3& by) {
 
 // About axis x, y or z, from the axis that follows it to the one after that.
 glm::dmat4 turned_about(int axis, double degrees) {
-  const double c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+  const double c = elementary::cos(glm::radians(degrees)), s = elementary::sin(glm::radians(degrees));
   const int next = (axis + 1) % 3, last = (axis + 2) % 3;
   glm::dmat4 matrix(1);
   matrix[next][next] = matrix[last][last] = c;

@@ -11,6 +11,7 @@
 #include "host/content/document/fields.h"
 #include "host/content/document/file.h"
 #include "host/content/document/text.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/importer/patches/patch_scene.h"
 #include "host/content/importer/patches/rib_words.h"
 
@@ -179,7 +180,7 @@ class RibReader {
     const glm::dvec3 axis(by[1], by[2], by[3]);
     if (!(glm::length(axis) > 0)) refuse("turns about no axis", "write Rotate angle x y z");
     const glm::dvec3 a = glm::normalize(axis);
-    const double c = std::cos(glm::radians(by[0])), s = std::sin(glm::radians(by[0]));
+    const double c = elementary::cos(glm::radians(by[0])), s = elementary::sin(glm::radians(by[0]));
     glm::dmat4 matrix(1);
     for (int i = 0; i < 3; ++i) {
       glm::dvec3 unit(0);

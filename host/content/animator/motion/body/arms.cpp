@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "host/content/animator/motion/body/stance.h"
 #include "host/content/animator/motion/body/surface.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -47,7 +47,7 @@ class BesideBody {
     double most = 0;
     for (std::size_t band = 0; band < kBands; ++band) {
       const double depth = length_ * (kBelow + (1 - kBelow) * (double(band) + 0.5) / kBands);
-      most = std::max(most, std::atan2(body[band] + kInside * arm[band], depth));
+      most = std::max(most, elementary::atan2(body[band] + kInside * arm[band], depth));
     }
     return glm::degrees(most);
   }
@@ -97,7 +97,7 @@ bool is_drawn_out(const Body& body, modeler::Side side) {
   if (shoulder == modeler::kNone || elbow == modeler::kNone) return false;
   const Posture drawn = drawn_posture(*body.model);
   const glm::dvec3 along = frame_in(*body.model, drawn, elbow).place - frame_in(*body.model, drawn, shoulder).place;
-  return glm::dot(glm::normalize(along), body.axes[2]) > -std::cos(glm::radians(kOut));
+  return glm::dot(glm::normalize(along), body.axes[2]) > -elementary::cos(glm::radians(kOut));
 }
 
 double hang_beside(const Body& body, modeler::Side side) {

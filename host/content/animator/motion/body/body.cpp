@@ -9,6 +9,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/body/surface.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -103,7 +104,7 @@ Leg leg_of(const Body& body, const Posture& drawn, const LegLimbs& limbs, modele
                   "in its model, place knees between hips and ankles");
   leg.aside = (back * (hip - place(body.pelvis))).y;
   const glm::dvec3 thigh = back * (knee - hip), shin = back * (ankle - knee);
-  leg.bent = glm::degrees(std::atan2(thigh.z * shin.x - thigh.x * shin.z, thigh.x * shin.x + thigh.z * shin.z));
+  leg.bent = glm::degrees(elementary::atan2(thigh.z * shin.x - thigh.x * shin.z, thigh.x * shin.x + thigh.z * shin.z));
   leg.sole = sole_of(model, drawn, body.axes, leg.ankle, leg.toes);
   return leg;
 }
@@ -148,7 +149,9 @@ std::vector<std::size_t> limbs_of(const modeler::Model& model) {
 
 }  // namespace
 
-glm::dvec2 ahead_of(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
+glm::dvec2 ahead_of(double heading) {
+  return {elementary::cos(glm::radians(heading)), elementary::sin(glm::radians(heading))};
+}
 
 bool has_four_legs(const modeler::Model& model) {
   constexpr double kNear = 0.1;  // of the hip's height: how far front and hind feet are from one level
@@ -189,8 +192,8 @@ glm::dmat3 canonical_turn(double a, double b, double c) {
 glm::dmat3 canonical_turn(const glm::dvec3& degrees) { return canonical_turn(degrees.x, degrees.y, degrees.z); }
 
 glm::dvec3 canonical_degrees(const glm::dmat3& m) {
-  return glm::degrees(glm::dvec3(std::atan2(-m[2][1], m[2][2]), std::asin(std::clamp(m[2][0], -1.0, 1.0)),
-                                 std::atan2(-m[1][0], m[0][0])));
+  return glm::degrees(glm::dvec3(elementary::atan2(-m[2][1], m[2][2]), elementary::asin(std::clamp(m[2][0], -1.0, 1.0)),
+                                 elementary::atan2(-m[1][0], m[0][0])));
 }
 
 double Sole::height(double pitch, double bent) const {
@@ -226,7 +229,7 @@ std::vector<std::size_t> Body::between() const {
 
 double Body::heading_of(const Posture& posture) const {
   const glm::dvec3 forward = (actor_turn(posture) * axes)[0];
-  return glm::degrees(std::atan2(forward.y, forward.x));
+  return glm::degrees(elementary::atan2(forward.y, forward.x));
 }
 
 glm::dmat3 Body::turn_of(const Posture& posture, std::size_t joint) const {

@@ -1,9 +1,10 @@
 #include "host/content/animator/motion/body/crouch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
+
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -39,9 +40,10 @@ Crouch::Crouch(const Body& body, const Posture& start, const std::string& where)
 glm::dvec3 Crouch::lowered(double depth) const {
   if (!knees_) return {0, 0, 0};
   const Leg& leg = body_.legs[0];
-  const double bend = std::pow(depth, 1.4), thigh = glm::radians(kThigh * bend), shin = glm::radians(kShin * bend);
-  return {leg.shin * std::sin(shin) - leg.thigh * std::sin(thigh), 0,
-          leg.thigh * (std::cos(thigh) - 1) + leg.shin * (std::cos(shin) - 1)};
+  const double bend = elementary::pow(depth, 1.4), thigh = glm::radians(kThigh * bend),
+               shin = glm::radians(kShin * bend);
+  return {leg.shin * elementary::sin(shin) - leg.thigh * elementary::sin(thigh), 0,
+          leg.thigh * (elementary::cos(thigh) - 1) + leg.shin * (elementary::cos(shin) - 1)};
 }
 
 void Crouch::take(double depth, double twist, Posture& posture) const {

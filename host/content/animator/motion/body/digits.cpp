@@ -10,6 +10,7 @@
 #include "host/content/animator/motion/body/finger_names.h"
 #include "host/content/animator/motion/body/reach.h"
 #include "host/content/animator/motion/body/surface.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -22,7 +23,7 @@ constexpr int kPads = 4;                              // of a phalanx
 
 // Signed, in degrees, about the hinge.
 double bend_between(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& hinge) {
-  return glm::degrees(std::atan2(glm::dot(glm::cross(from, to), hinge), glm::dot(from, to)));
+  return glm::degrees(elementary::atan2(glm::dot(glm::cross(from, to), hinge), glm::dot(from, to)));
 }
 
 // Joints of one finger, and where it ends.

@@ -8,6 +8,7 @@
 
 #include "host/content/animator/pose/angles.h"
 #include "host/content/animator/motion/body/curve.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -23,7 +24,9 @@ glm::dvec3 rounded_to(const glm::dvec3& v, double digit) {
 }
 
 // A power of ten that is small against the figure.
-double place_digit(const Body& body) { return std::pow(10, std::floor(std::log10(body.leg_length() * 1e-4))); }
+double place_digit(const Body& body) {
+  return elementary::pow(10, std::floor(elementary::log10(body.leg_length() * 1e-4)));
+}
 
 double share(std::size_t from, std::size_t to, std::size_t at) { return double(at - from) / double(to - from); }
 

@@ -9,6 +9,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/body/reach.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -29,7 +30,7 @@ glm::dmat3 heading_turn(double degrees) { return modeler::rotation_by_degrees({0
 glm::dmat3 turned_down(const glm::dvec3& along) {
   const glm::dvec3 down(0, 0, -1), axis = glm::cross(along, down);
   const double sine = glm::length(axis);
-  return sine < 0.1 ? glm::dmat3(1) : modeler::rotation(axis / sine, std::atan2(sine, glm::dot(along, down)));
+  return sine < 0.1 ? glm::dmat3(1) : modeler::rotation(axis / sine, elementary::atan2(sine, glm::dot(along, down)));
 }
 
 // How an arm comes to hang from how it is drawn.
@@ -50,9 +51,10 @@ Hanging hanging_of(const Body& body, modeler::Side side) {
   Hanging hanging{turned_down(bone(shoulder, elbow))};
   if (wrist == modeler::kNone) return hanging;
   const glm::dvec3 forearm = hanging.turn * bone(elbow, wrist);
-  const double out = std::hypot(forearm.x, forearm.y), aside = glm::degrees(std::atan2(forearm.y, forearm.x));
+  const double out = elementary::hypot(forearm.x, forearm.y),
+               aside = glm::degrees(elementary::atan2(forearm.y, forearm.x));
   if (out < kBentElbow || std::abs(aside) > kMostArmTwist) return hanging;
-  hanging.bent = glm::degrees(std::atan2(out, -forearm.z));
+  hanging.bent = glm::degrees(elementary::atan2(out, -forearm.z));
   hanging.turn = heading_turn(-aside) * hanging.turn;
   return hanging;
 }
@@ -90,7 +92,7 @@ Hinge hinge_of(const Body& body, const Leg& leg) {
 void bend_knee(const Body& body, const Leg& leg, const Hinge& hinge, double distance, Posture& posture) {
   const double cosine =
       (leg.thigh * leg.thigh + leg.shin * leg.shin - distance * distance) / (2 * leg.thigh * leg.shin);
-  const double bend = 180 - glm::degrees(std::acos(std::clamp(cosine, -1.0, 1.0)));
+  const double bend = 180 - glm::degrees(elementary::acos(std::clamp(cosine, -1.0, 1.0)));
   const modeler::Limits& limits = body.model->joints[leg.knee].limits[hinge.axis];
   if (std::abs(leg.bent) > kZigzag) {  // such a leg bends on as it is drawn
     posture.pose[leg.knee][hinge.axis] =
@@ -182,7 +184,7 @@ class LegReach {
     const glm::dmat3 wanted = heading_turn(foot_.heading) * canonical_turn(0, foot_.pitch, 0);
     const glm::dmat3 is = body_.turn_of(posture_, leg_.ankle);
     const bool twists = twist_limit(body_, body_.model->joints[leg_.ankle]) > 0;
-    const double tilted = glm::degrees(std::acos(std::min(1.0, glm::dot(is[2], wanted[2]))));
+    const double tilted = glm::degrees(elementary::acos(std::min(1.0, glm::dot(is[2], wanted[2]))));
     const double off = glm::degrees(animator::turn_between(is, wanted).angle);
     if (tilted > kFlatEnough || off > std::max(kFlatEnough, twists ? 0 : foot_.askew)) {
       joints.assign(1, leg_.ankle);
@@ -244,8 +246,8 @@ Foot foot_of(const Body& body, const Posture& posture, const Leg& leg) {
   const glm::dmat3 turn = body.turn_of(posture, leg.ankle);
   Foot foot;
   foot.ankle = frame_in(*body.model, posture, leg.ankle).place;
-  foot.heading = glm::degrees(std::atan2(turn[0].y, turn[0].x));
-  foot.pitch = -glm::degrees(std::asin(std::clamp(turn[0].z, -1.0, 1.0)));
+  foot.heading = glm::degrees(elementary::atan2(turn[0].y, turn[0].x));
+  foot.pitch = -glm::degrees(elementary::asin(std::clamp(turn[0].z, -1.0, 1.0)));
   return foot;
 }
 

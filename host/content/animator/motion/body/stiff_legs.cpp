@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 
 #include "host/content/animator/motion/body/curve.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -54,7 +55,7 @@ glm::dvec3 shift_of(const Body& body, const Posture& start, const Stance& stance
   line.z = 0;
   if (glm::length(line) == 0) return glm::dvec3(0);
   const glm::dvec3 shift = to_both(body, legs_of(body, stance, start), glm::normalize(line));
-  const double far = std::hypot(shift.x, shift.y);
+  const double far = elementary::hypot(shift.x, shift.y);
   return far < body.leg_length() / 2 ? glm::dvec3(shift.x, shift.y, 0) : glm::dvec3(0);
 }
 
@@ -65,7 +66,7 @@ double rise_of(const Body& body, const Posture& start, const Stance& stance) {
   for (const modeler::Side side : kSides) {
     if (!stance.feet[index_of(side)].stands) continue;
     const glm::dvec3& leg = legs[index_of(side)];
-    const double length = body.leg(side).length(), level = std::min(std::hypot(leg.x, leg.y), length);
+    const double length = body.leg(side).length(), level = std::min(elementary::hypot(leg.x, leg.y), length);
     least = std::min(least, std::sqrt(length * length - level * level) - leg.z);
   }
   return least;

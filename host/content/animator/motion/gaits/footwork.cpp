@@ -6,6 +6,8 @@
 #include <glm/trigonometric.hpp>
 #include <numbers>
 
+#include "host/content/elementary/elementary.h"
+
 namespace mars::motion {
 namespace {
 
@@ -89,7 +91,7 @@ Foot Footwork::swinging(const Footprint& from, const Step& step, double time) co
   foot.bent = off.bent == 0 ? 0 : bent_to(tread.bends, -off.bent / tread.off, off.bent, land.bent, u);
   foot.stands = false;
   const glm::dvec2 forward = ahead_of(foot.heading);
-  const double aside = footing_.aside * std::sin(std::numbers::pi * u);
+  const double aside = footing_.aside * elementary::sin(std::numbers::pi * u);
   foot.ankle += glm::dvec3(-forward.y * aside, forward.x * aside, 0);
   const double clear = std::min({1.0, u / kLiftTime, (1 - u) / kLiftTime}) * tread.clearance * footing_.leg.length();
   foot.ankle.z = footing_.floor + std::max(rise(step, from, off, land, u) * footing_.leg.length() + sole.height(0, 0),

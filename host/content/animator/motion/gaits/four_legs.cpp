@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "host/content/animator/motion/gaits/advance.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -128,7 +129,7 @@ class Strider {
 
   double beat(const Beat& beat, double time) const {
     const double phase = (time - lands_) / period_ - beat.highest;
-    return fullness(time) * beat.by * std::cos(2 * std::numbers::pi * beat.times * phase);
+    return fullness(time) * beat.by * elementary::cos(2 * std::numbers::pi * beat.times * phase);
   }
 
   Stance at(double time) const {
@@ -175,7 +176,7 @@ class Strider {
       if (!foot.stands) continue;
       const Leg& leg = legs_of(body_, fore)[index_of(side)];
       const glm::dvec3 way = frame_in(*body_.model, posture, leg.hip).place - foot.ankle;
-      const double reach = kFourLegReach * leg.length(), across = std::min(std::hypot(way.x, way.y), reach);
+      const double reach = kFourLegReach * leg.length(), across = std::min(elementary::hypot(way.x, way.y), reach);
       most = std::max(most, way.z - std::sqrt(reach * reach - across * across));
     }
     return most;
@@ -193,7 +194,7 @@ class Strider {
     for (std::vector<double>& each : high) each = smooth_cover(each, std::max(1, int(period_ / 8)));
     for (std::size_t frame = 1; frame < stances.size(); ++frame) {
       stances[frame].pelvis.z -= high[0][frame];
-      stances[frame].tilt.y += glm::degrees(std::atan2(high[1][frame] - high[0][frame], long_));
+      stances[frame].tilt.y += glm::degrees(elementary::atan2(high[1][frame] - high[0][frame], long_));
     }
   }
 

@@ -13,6 +13,7 @@
 #include "host/content/animator/motion/body/arms.h"
 #include "host/content/animator/motion/body/curve.h"
 #include "host/content/animator/motion/body/stiff_legs.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -24,7 +25,9 @@ constexpr double kStiffRise = 0.05;       // of legs without knees, as the pelvi
 constexpr double kStiffRoll = 0.2;        // sine of that, at most
 constexpr double kStiffLift = 0.02;       // of such legs at least, if need be round the outside
 
-glm::dvec2 ahead(double heading) { return {std::cos(glm::radians(heading)), std::sin(glm::radians(heading))}; }
+glm::dvec2 ahead(double heading) {
+  return {elementary::cos(glm::radians(heading)), elementary::sin(glm::radians(heading))};
+}
 
 class Walker {
  public:
@@ -59,7 +62,7 @@ class Walker {
       const Foot& foot = stance.feet[index_of(side)];
       const glm::dvec3 hip = hip_of(stance, side), way = hip - foot.ankle;
       const double reach = (foot.stands ? kStandReach : kSwingReach) * body_.leg(side).length();
-      const double across = std::min(std::hypot(way.x, way.y), reach);
+      const double across = std::min(elementary::hypot(way.x, way.y), reach);
       most = std::max(most, way.z - std::sqrt(reach * reach - across * across));
     }
     return most;
@@ -91,7 +94,9 @@ class Walker {
     Stance stance;
     const double full = fullness(time), leg = body_.leg_length(), p = phase(time);
     const double swing = full * std::min(gait_.stride / gait_.manner->tread.stride, 1.2);
-    const auto wave = [&](double at, double times = 1) { return std::cos(2 * std::numbers::pi * times * (p - at)); };
+    const auto wave = [&](double at, double times = 1) {
+      return elementary::cos(2 * std::numbers::pi * times * (p - at));
+    };
     const double loose = body_.planar() || body_.stiff() ? 0 : 1;  // a figure that cannot sway does not
     move_along(time, stance);
     const double settle = smooth(0, gait_.steps.front().land, time);
@@ -120,7 +125,8 @@ class Walker {
     const auto step = std::upper_bound(gait_.steps.begin(), gait_.steps.end(), time, down);
     if (step == gait_.steps.end() || time <= step->off) return 0;
     const double u = (time - step->off) / (step->land - step->off);
-    return sign_of(step->side) * glm::degrees(std::asin(roll(step->side))) * std::sin(std::numbers::pi * u);
+    return sign_of(step->side) * glm::degrees(elementary::asin(roll(step->side))) *
+           elementary::sin(std::numbers::pi * u);
   }
 
   double roll(modeler::Side side) const {  // its sine
@@ -145,7 +151,9 @@ class Walker {
   }
 
   void add_trunk(Stance& stance, double p, double swing, double lean) const {
-    const auto wave = [&](double at, double times = 1) { return std::cos(2 * std::numbers::pi * times * (p - at)); };
+    const auto wave = [&](double at, double times = 1) {
+      return elementary::cos(2 * std::numbers::pi * times * (p - at));
+    };
     const auto add = [&](modeler::Trunk part, const glm::dvec3& swung, double share) {
       if (const std::size_t joint = body_.find(part); joint != modeler::kNone)
         stance.turns[joint] = canonical_turn(swing * swung + glm::dvec3(0, share * lean, 0));
@@ -161,7 +169,7 @@ class Walker {
   void add_arm(Stance& stance, modeler::Side side, double p, double swing) const {
     const double own = side == modeler::Side::left ? p : p + 0.5, s = sign_of(side),
                  much = swing * gait_.style.arm_swing;
-    const auto wave = [&](double late) { return std::cos(2 * std::numbers::pi * (own - late)); };
+    const auto wave = [&](double late) { return elementary::cos(2 * std::numbers::pi * (own - late)); };
     if (const std::size_t joint = body_.find(modeler::Limb::shoulder, side); joint != modeler::kNone)
       stance.turns[joint] =
           hanging_shoulder(body_, side,

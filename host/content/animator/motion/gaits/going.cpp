@@ -8,6 +8,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/motion/body/glide.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -73,12 +74,12 @@ Stand stand_of(const Stance& stance) {
 
 double bearing(const Stand& from, const glm::dvec3& to) {
   const glm::dvec2 way = glm::dvec2(to.x, to.y) - from.middle;
-  return std::remainder(glm::degrees(std::atan2(way.y, way.x)) - from.heading, 360.0);
+  return std::remainder(glm::degrees(elementary::atan2(way.y, way.x)) - from.heading, 360.0);
 }
 
 glm::dvec2 Path::at(double s) const {
   const double half = glm::radians(bend * s / length) / 2;
-  const double chord = std::abs(half) < 1e-6 ? s : s * std::sin(half) / half;
+  const double chord = std::abs(half) < 1e-6 ? s : s * elementary::sin(half) / half;
   return start.middle + chord * ahead_of(start.heading + glm::degrees(half));
 }
 

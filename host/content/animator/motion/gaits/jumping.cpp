@@ -12,6 +12,7 @@
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/gaits/going.h"
 #include "host/content/animator/motion/scene/gravity.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -124,11 +125,12 @@ class Jumper {
   double behind(double height) const {
     const Leg& leg = body_.legs[0];
     const double upright = body_.height - leg.sole.height(0, 0) - leg.length();
-    const double hips = height - upright - leg.sole.height(0, 0), shins = leg.shin * std::cos(glm::radians(kShins));
-    const double both = glm::degrees(std::acos(std::clamp(hips / leg.length(), 0.0, 1.0)));
+    const double hips = height - upright - leg.sole.height(0, 0),
+                 shins = leg.shin * elementary::cos(glm::radians(kShins));
+    const double both = glm::degrees(elementary::acos(std::clamp(hips / leg.length(), 0.0, 1.0)));
     if (both < kShins) return 0;
-    const double thighs = std::acos(std::clamp((hips - shins) / leg.thigh, -1.0, 1.0));
-    return std::min(0.0, leg.shin * std::sin(glm::radians(kShins)) - leg.thigh * std::sin(thighs));
+    const double thighs = elementary::acos(std::clamp((hips - shins) / leg.thigh, -1.0, 1.0));
+    return std::min(0.0, leg.shin * elementary::sin(glm::radians(kShins)) - leg.thigh * elementary::sin(thighs));
   }
 
   // Of the pelvis: forward from where it stands, and over the floor.
@@ -184,9 +186,9 @@ class Jumper {
     Foot foot;
     foot.ankle = glm::mix(moved(off, begin), moved(land, end), way);
     const double drawn = (0.10 + 0.25 * std::min(1.0, std::abs(distance_) / body_.leg_length())) * body_.leg_length();
-    foot.ankle += drawn * std::pow(std::sin(std::numbers::pi * u), 2) * up;
+    foot.ankle += drawn * elementary::pow(elementary::sin(std::numbers::pi * u), 2) * up;
     foot.heading = off.heading + turn_ * way;
-    foot.pitch = glm::mix(off.pitch, land.pitch, way) + 14 * std::sin(std::numbers::pi * u);
+    foot.pitch = glm::mix(off.pitch, land.pitch, way) + 14 * elementary::sin(std::numbers::pi * u);
     foot.bent = glm::mix(off.bent, land.bent, smooth(0, 0.5, u));
     foot.stands = false;
     const Sole& sole = body_.leg(side).sole;

@@ -13,6 +13,7 @@
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/body/reach.h"
 #include "host/content/animator/motion/body/stance.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -128,7 +129,7 @@ Posture waving(const Body& body, const Posture& start, modeler::Side side, const
   const glm::dvec3 shoulder = frame_in(*body.model, start, arm.shoulder).place;
   const glm::dvec3 elbow = shoulder + arm.upper * (facing * glm::normalize(glm::dvec3(0.22, s, -0.05)));
   const glm::dvec3 wrist =
-      elbow + arm.fore * (facing * glm::normalize(glm::dvec3(0.12, s * std::sin(tilt), std::cos(tilt))));
+      elbow + arm.fore * (facing * glm::normalize(glm::dvec3(0.12, s * elementary::sin(tilt), elementary::cos(tilt))));
   posture.pose[arm.shoulder] =
       numbers_for(body, arm.shoulder, hanging_shoulder(body, side, {s * 95, 0, s * 80}), start.pose[arm.shoulder]);
   posture.pose[arm.elbow] = numbers_for(body, arm.elbow, hanging_elbow(body, side, {0, -80, 0}), start.pose[arm.elbow]);

@@ -20,6 +20,7 @@
 #include "host/content/animator/motion/goals/grasp.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
 #include "host/content/animator/motion/scene/target.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -97,7 +98,7 @@ class Handling {
   // Of the trunk, towards what is beside.
   double twist() const {
     const glm::dvec3 way = glm::transpose(facing()) * (to_ - frame_in(*body_.model, start_, body_.pelvis).place);
-    const double bearing = glm::degrees(std::atan2(way.y, std::max(way.x, 0.3 * hand_.length())));
+    const double bearing = glm::degrees(elementary::atan2(way.y, std::max(way.x, 0.3 * hand_.length())));
     return std::clamp(bearing + sign_of(hand_.side) * -12, -kMostHandTwist, kMostHandTwist);
   }
 

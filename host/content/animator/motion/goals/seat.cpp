@@ -13,6 +13,7 @@
 #include "host/content/animator/motion/body/stance.h"
 #include "host/content/animator/motion/gaits/steps.h"
 #include "host/content/animator/motion/scene/target.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -209,11 +210,11 @@ Motion sit_on(const Scene& scene, const Target& named) {
   };
   if (way.size() > 1 || glm::distance(feet(), way.back()) > kNear * body.leg_length())
     for (const glm::dvec2& to : way) rehearsal.perform(walk, {{"to", numbers(to)}});
-  const double heading = glm::degrees(std::atan2(spot.looks.y, spot.looks.x));
+  const double heading = glm::degrees(elementary::atan2(spot.looks.y, spot.looks.x));
   if (std::abs(std::remainder(heading - stance().heading, 360.0)) > kSeatAskew)
     rehearsal.perform(turn, {{"to", numbers(feet() + 100 * body.leg_length() * spot.looks)}});
   const double looking = glm::radians(stance().heading);
-  const double back = glm::dot(feet() - spot.hips, glm::dvec2(std::cos(looking), std::sin(looking)));
+  const double back = glm::dot(feet() - spot.hips, glm::dvec2(elementary::cos(looking), elementary::sin(looking)));
   Arguments::Values values{{"seat-height", {document::shown(height)}},
                            {"back", {document::shown(std::max(0.0, back))}}};
   if (scene.arguments.has("seconds")) values["seconds"] = scene.arguments.values("seconds");

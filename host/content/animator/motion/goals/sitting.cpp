@@ -14,6 +14,7 @@
 #include "host/content/animator/motion/body/glide.h"
 #include "host/content/animator/motion/body/reach.h"
 #include "host/content/animator/motion/body/surface.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -159,7 +160,7 @@ class Chair {
     for (const modeler::Side side : kSides) {
       const glm::dvec3 hip = stance.pelvis + facing(stance) * glm::dvec3(0, body_.leg(side).aside, -drop_);
       const glm::dvec3& ankle = stance.feet[index_of(side)].ankle;
-      const double far = std::hypot(hip.x - ankle.x, hip.y - ankle.y), reach = 0.9995 * body_.leg(side).length();
+      const double far = elementary::hypot(hip.x - ankle.x, hip.y - ankle.y), reach = 0.9995 * body_.leg(side).length();
       least = std::min(least, ankle.z + std::sqrt(std::max(0.0, reach * reach - far * far)) + drop_);
     }
     return least;

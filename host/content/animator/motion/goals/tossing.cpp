@@ -21,6 +21,7 @@
 #include "host/content/animator/motion/scene/gravity.h"
 #include "host/content/animator/motion/scene/rehearsal.h"
 #include "host/content/animator/motion/scene/target.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -222,9 +223,9 @@ Motion toss(const Scene& scene) {
     return to ? throw_to(from, target, gravity, scene.film.rate, flight) : Throw{*velocity, 0};
   };
   Throw released = thrown(now);
-  const double bearing =
-      std::remainder(glm::degrees(std::atan2(released.velocity.y, released.velocity.x)) - swing.heading(), 360.0);
-  const bool level = std::hypot(released.velocity.x, released.velocity.y) > 1e-6;
+  const double bearing = std::remainder(
+      glm::degrees(elementary::atan2(released.velocity.y, released.velocity.x)) - swing.heading(), 360.0);
+  const bool level = elementary::hypot(released.velocity.x, released.velocity.y) > 1e-6;
   if (level && std::abs(bearing) > kMostThrowBearing)
     throw Failure("would toss " + text(std::abs(bearing)) + " degrees to its " + (bearing > 0 ? "left" : "right"),
                   scene.where(),
@@ -236,7 +237,7 @@ Motion toss(const Scene& scene) {
   // The arm lets go where it moves as the thing shall fly, and about as fast.
   for (int round = 0; round < 3; ++round) {
     const glm::dvec3& v = released.velocity;
-    shape.release = std::clamp(glm::degrees(std::atan2(v.z, std::hypot(v.x, v.y))), 5.0, 70.0);
+    shape.release = std::clamp(glm::degrees(elementary::atan2(v.z, elementary::hypot(v.x, v.y))), 5.0, 70.0);
     const double radians = glm::radians(kBackward + shape.release);
     shape.forward =
         frames(std::clamp(2 * radians * holding.hand.length() / std::max(glm::length(v), 1e-9), kQuickest, 0.6));

@@ -11,6 +11,7 @@
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/animator/motion/body/surface.h"
+#include "host/content/elementary/elementary.h"
 
 namespace mars::motion {
 namespace {
@@ -40,8 +41,8 @@ double distance_to(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& f
 double angle_of(const std::array<glm::dvec3, 3>& corners, const glm::dvec3& from) {
   const glm::dvec3 a = corners[0] - from, b = corners[1] - from, c = corners[2] - from;
   const double x = glm::length(a), y = glm::length(b), z = glm::length(c);
-  return 2 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                        x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
+  return 2 * elementary::atan2(glm::dot(a, glm::cross(b, c)),
+                               x * y * z + glm::dot(a, b) * z + glm::dot(b, c) * x + glm::dot(c, a) * y);
 }
 
 // Neighbours in space mostly come near each other: by the bits of their places in the box, one axis after the other.

@@ -19,6 +19,7 @@
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/animator/pose/angles.h"
 #include "host/content/animator/pose/attachments.h"
+#include "host/content/elementary/elementary.h"
 #include "node/wire/film.h"
 
 namespace mars::motion {
@@ -38,7 +39,7 @@ glm::dmat3 turn_to(const glm::dvec3& from, const glm::dvec3& to) {
   const glm::dvec3 axis = glm::cross(from, to);
   const double sine = glm::length(axis);
   if (sine < kParallel) return glm::dmat3(1);
-  return modeler::rotation(axis / sine, std::atan2(sine, glm::dot(from, to)));
+  return modeler::rotation(axis / sine, elementary::atan2(sine, glm::dot(from, to)));
 }
 
 // An actor of a film, with its body and how it moves.
@@ -242,7 +243,7 @@ class Transfer {
   void turn_by_actor(const Posture& begin) {
     turns_whole_ = true;
     const glm::dvec3 ahead = from_.body().turn_of(begin, from_.body().pelvis)[0];
-    align_ = canonical_turn(0, 0, to_.body().heading_of(start_) - glm::degrees(std::atan2(ahead.y, ahead.x)));
+    align_ = canonical_turn(0, 0, to_.body().heading_of(start_) - glm::degrees(elementary::atan2(ahead.y, ahead.x)));
   }
 
   void take(const Posture& from, Posture& posture) {
@@ -278,8 +279,8 @@ class Transfer {
       const glm::dmat3 wanted = glm::transpose(frame_in(to_.model(), posture, elbow).turn) * hand;
       const glm::dmat3 is = modeler::orientation(joints[wrist], within(joints[wrist], wanted, posture.pose[wrist]));
       const animator::Turn left = animator::turn_between(is, wanted);
-      const double roll =
-          2 * std::atan2(glm::dot(left.axis, along) * std::sin(left.angle / 2), std::cos(left.angle / 2));
+      const double roll = 2 * elementary::atan2(glm::dot(left.axis, along) * elementary::sin(left.angle / 2),
+                                                elementary::cos(left.angle / 2));
       roll_within(joints[elbow], along, roll, posture.pose[elbow]);
     }
   }
