@@ -30,7 +30,7 @@ struct AnimateWords {
   std::string thing{}, frame{};
   std::optional<animator::Ease> ease{};
   std::vector<std::string> parts{};
-  bool all = false, clamp = false, lengthen = false;
+  bool all = false, clamp = false, lengthen = false, local = false;
   std::uint32_t to = 0, hold = 0, falloff = 0;
   std::int64_t shift = 0;
   double stretch = 0, anticipation = 0, overshoot = 0;
@@ -150,15 +150,20 @@ void add_pose(cli::Command animate, AnimateWords& words) {
            "Example: --falloff 8")
       .type("N")
       .range(1u, wire::kMostFrames);
+  command.app().add_flag("--local", words.local,
+                         "With += and -=: turn each joint about its own axis as it stands, after all its turns. "
+                         "Example: stem.x+=30 --local");
   command.app().option("ACTOR").required();
   command.app().option("PART=NUMBERS").required();
   command.runs([&words] {
     const animator::FrameRange range = animator::read_frame_range(words.frame);
     const auto beyond = words.clamp ? animator::Beyond::clamped : animator::Beyond::refused;
-    const bool plain = range.first == range.last && !words.ease && !words.lengthen && words.falloff == 0;
+    const bool plain =
+        range.first == range.last && !words.ease && !words.lengthen && words.falloff == 0 && !words.local;
     if (plain && words.film.show_pose(words.thing, words.parts, range.first, beyond)) return;
     edit(words, [&](document::Json& json, const animator::Film& film) {
-      return animator::pose(json, film, words.thing, words.parts, range, {words.ease, beyond, words.falloff});
+      return animator::pose(json, film, words.thing, words.parts, range,
+                            {words.ease, beyond, words.falloff, words.local});
     });
   });
 }

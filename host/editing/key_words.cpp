@@ -7,6 +7,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/fields.h"
+#include "host/content/document/text.h"
 #include "host/content/keys/text.h"
 
 namespace mars::editing {
@@ -106,6 +107,45 @@ std::string example_of(const keys::Object& object) {
   return "KEY=VALUE";
 }
 
+// As a value of the key with numbers is written; null where none is.
+Json form_of(const keys::Key& key) {
+  if (key.type == "number" || key.type == "whole") return Json(1);
+  const keys::Type* const type = keys::find_type(key.type);
+  Json form = type == nullptr ? Json() : Json::parse(type->example, nullptr, false);
+  return form.is_number() || (form.is_array() && !form.empty() && form[0].is_number()) ? form : Json();
+}
+
+// Whether the value cannot be one of the key's, whatever its numbers are. The file's reader would say so in JSON's
+// words.
+bool has_other_form(const Json& value, const Json& form, std::string_view schema) {
+  const auto allows = [&](std::string_view part) { return schema.find(part) != schema.npos; };
+  if (value.is_string()) return !allows(R"("enum": [")") && !allows("const");
+  if (value.is_array() && form.is_array()) return value.size() != form.size();
+  return value.is_array() != form.is_array() && !allows("anyOf");
+}
+
+// "size=960,540", with the key's own numbers where it has an example or a default.
+std::string example_of(const keys::Key& key, const Json& form) {
+  std::string words(key.example.empty() ? key.json : key.example);
+  if (words.empty()) words = key.number ? document::shown(*key.number) : form.dump();
+  std::erase_if(words, [](char c) { return c == '[' || c == ']' || c == ' '; });
+  return std::string(key.name) + "=" + words;
+}
+
+// What `text`, of the word KEY=VALUE, says.
+Json value_of(const keys::Key& key, std::string text, const std::string& word) {
+  if (key.type == "flag") return flag_of(text);
+  if (key.type == "text" || key.type == "file" || key.type == "choice") return text;
+  if (key.type == "size") std::ranges::replace(text, 'x', ',');  // as --size takes it
+  Json value = value_of(text);
+  const Json form = form_of(key);
+  const keys::Type* const type = keys::find_type(key.type);
+  if (!form.is_null() && has_other_form(value, form, type == nullptr ? "" : type->schema))
+    throw Failure("is no value of " + std::string(key.name), document::in_quotes(word),
+                  "write it like " + example_of(key, form));
+  return value;
+}
+
 }  // namespace
 
 void add_key_options(cli::Command command, const keys::Object& object, Json& values) {
@@ -133,8 +173,7 @@ Json values_of(std::span<const std::string> words, const keys::Object& object) {
       throw Failure("is no key of a " + std::string(object.name), document::in_quotes(key),
                     document::did_you_mean(key, names, "choose " + document::joined(names)));
     if (values.contains(key)) throw Failure("is given twice", document::in_quotes(key), "give each key once");
-    const std::string text = word.substr(equals + 1);
-    values[key] = object.key(key).type == "flag" ? flag_of(text) : value_of(text);
+    values[key] = value_of(object.key(key), word.substr(equals + 1), word);
   }
   return values;
 }

@@ -6,12 +6,14 @@
 
 #include "hal/failure/explain.h"
 #include "host/content/animator/keys/edit.h"
+#include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/axis_turn.h"
 #include "host/content/document/text.h"
 
 namespace mars::preview {
 namespace {
 
-constexpr std::string_view kCharacters = "\t\rioxyzXYZ0du";
+constexpr std::string_view kCharacters = "\t\rioxyzXYZ0dua";
 constexpr std::string_view kCompiled =
     "a .mars film has no joints to pose: preview the film file that it was made from";
 constexpr double kTurnStep = 5, kFineTurnStep = 1;  // degrees
@@ -83,6 +85,10 @@ std::string PoseKeys::done_by(const KeyPress& key, std::uint32_t frame) {
     fine_ = !fine_;
     return fine_ ? "steps of 1 degree" : "steps of 5 degrees";
   }
+  if (key.character == 'a') {
+    own_axes_ = !own_axes_;
+    return own_axes_ ? "turns about the joint's own axes as they stand" : "turns by the joint's three numbers";
+  }
   if (!selected_) return "Tab selects a joint";
   const double step = fine_ ? kFineTurnStep : kTurnStep;
   switch (key.character) {
@@ -100,10 +106,27 @@ std::string PoseKeys::turn(int axis, double degrees, std::uint32_t frame) {
   const modeler::Limits& limits = joint().limits[static_cast<std::size_t>(axis)];
   const std::string name = std::string(1, "xyz"[axis]);
   if (!limits.free()) return "does not turn about " + name;
+  if (own_axes_ && joint().freedoms() > 1) return turn_own(axis, degrees, frame);
   const double now = pose_.pose_at(*film_->source, *selected_, frame)[axis];
   const double wanted = animator::rounded(now + degrees), to = std::clamp(wanted, limits.lower, limits.upper);
   if (to != now) pose_.set(*film_->source, *selected_, axis, to);
   return to == wanted ? "" : name + " stops at its limit";
+}
+
+// A step that the limits do not allow is not made in part, which would be another turn.
+std::string PoseKeys::turn_own(int axis, double degrees, std::uint32_t frame) {
+  const glm::dvec3 now = pose_.pose_at(*film_->source, *selected_, frame);
+  const animator::Turned turned = animator::turned_about_own(joint(), now, axis, degrees);
+  if (!turned.reached()) return "its skewed axes do not reach that turn";
+  const glm::dvec3 outside = animator::excess_of(joint(), turned.pose);
+  for (int number = 0; number < 3; ++number)
+    if (outside[number] > animator::kAngleRounding)
+      return std::string(1, "xyz"[number]) +
+             (joint().limits[static_cast<std::size_t>(number)].free() ? " stops at its limit" : " is locked");
+  const glm::dvec3 pose = animator::clamped(joint(), animator::rounded(turned.pose));
+  for (int number = 0; number < 3; ++number)
+    if (pose[number] != now[number]) pose_.set(*film_->source, *selected_, number, pose[number]);
+  return "";
 }
 
 std::string PoseKeys::rest(std::uint32_t frame) {
@@ -164,7 +187,7 @@ std::string PoseKeys::note(std::uint32_t frame) const {
 
 std::string PoseKeys::keys() {
   return " Tab next joint  Shift-Tab previous joint  o out  i in  x y z X Y Z turn\n"
-         " d degrees 5, 1  0 rest  Enter set key  u undo key  Esc give up the pose\n";
+         " d degrees 5, 1  a own axes  0 rest  Enter key  u undo  Esc give up the pose\n";
 }
 
 }  // namespace mars::preview

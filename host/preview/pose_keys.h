@@ -39,6 +39,7 @@ class PoseKeys {
  private:
   std::string done_by(const KeyPress& key, std::uint32_t frame);
   std::string turn(int axis, double degrees, std::uint32_t frame);
+  std::string turn_own(int axis, double degrees, std::uint32_t frame);
   std::string rest(std::uint32_t frame);
   std::string set_key(std::uint32_t frame);
   std::string undo();
@@ -52,6 +53,7 @@ class PoseKeys {
   PoseUnderWay pose_;
   PoseUnderWay::ByNames written_;  // became keys, which the film is still to be loaded with
   bool fine_ = false;              // steps
+  bool own_axes_ = false;          // turns are about the joint's axes as they stand, not by its numbers
   std::string said_;               // about the last key
 };
 

@@ -51,7 +51,8 @@ class Animate(ProgramTest):
         self.changed("pose", "robot", "shoulder.z=-30", "--frame", 24)
         self.assertEqual(self.actor()["keys"], [
             {"frame": 0, "place": [0, 0, 0], "pose": {"elbow": [0, 0, 0], "shoulder": [0, 0, 0]}},
-            {"frame": 24, "place": [1, 0, 0], "pose": {"elbow": [0, 90, 0], "shoulder": [0, 0, -30]}, "ease": "both"}])
+            {"frame": 24, "place": [1, 0, 0], "pose": {"elbow": [0, 90, 0], "shoulder": {"value": [0, 0, -30], "ease": "linear"}},
+             "ease": "both"}])
         self.assertIn("matrices    50\n", self.succeed("mars", "info", "film.json"))
 
     def test_negative_numbers_need_no_care(self):
@@ -60,6 +61,17 @@ class Animate(ProgramTest):
         self.changed("time", "robot", "--frame", 0, "--shift", 12)
         self.changed("time", "robot", "--frame", 12, "--shift", -6)
         self.assertEqual(self.frames(), [6])
+
+    def test_turns_about_own_axes(self):
+        """After three quarter turns, each about an axis as it then stands, the arm stands as by one about y."""
+        for setting in ["shoulder.x+=90", "shoulder.z-=90", "shoulder.x-=90"]:
+            self.assertEqual(self.animate("pose", "robot", setting, "--local", "--frame", 24).returncode, 0)
+        self.assertEqual(self.actor()["keys"][1]["pose"], {"shoulder": [90, 90, -90]})
+        self.animate("pose", "robot", "shoulder=0,0,40", "--frame", 24)
+        said = self.refused("pose", "robot", "shoulder.x+=150", "--local", "--frame", 24)
+        self.assertIn("turned 150 degrees about its own x, turns ", said)
+        self.assertIn("--clamp", said)
+        self.assertIn("elbow.x+=30", self.refused("pose", "robot", "elbow.y=30", "--local", "--frame", 24))
 
     def test_relative_turns_of_patterns_and_ranges(self):
         self.changed("pose", "robot", "elbow.y=90", "--frame", 24)

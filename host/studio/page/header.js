@@ -4,6 +4,7 @@ import {element} from "./dom.js";
 import {icon, logo} from "./icons.js";
 import {addMenu} from "./menu.js";
 import {keysOf} from "./shortcuts.js";
+import {kRingAxes} from "./state.js";
 
 export const kTools = [["none", "Select", "toolNone"], ["turn", "Turn", "toolTurn"], ["move", "Move", "toolMove"],
                        ["box", "Box", "toolBox"], ["points", "Control points", "toolPoints"], ["reach", "Reach", "toolReach"]];
@@ -24,6 +25,11 @@ export class Header {
     this.imports.dataset.key = "import";
     this.tools = segmented("Tool", kTools.map(([tool, text, command]) => ({value: tool, text, tip: `${text} (${keysOf(command)})`, glyph: tool})),
                            (tool) => state.set("tool", tool), false);
+    this.axes = iconButton("axes");
+    name(this.axes, "Rings turn about", keysOf("nextAxes"));
+    this.axes.dataset.key = "axes";
+    addMenu(this.axes, () => this.#axes());
+    this.rings = element("div", {class: "group"}, this.axes);
     this.workspaces = segmented("Workspace", kWorkspaces.map(([value, text, glyph]) => ({value, text, glyph, tip: `${text} (${keysOf("workspace")})`})),
                                 (value) => state.set("workspace", value), true);
     this.theme = iconButton(null, theme);
@@ -42,16 +48,25 @@ export class Header {
     const sheet = iconButton("help", help);
     name(sheet, "Keys and mouse", keysOf("help"));
     place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),
-                 element("div", {class: "group"}, this.undo, this.redo, this.imports), this.tools.root, this.film, element("span", {class: "spring"}),
+                 element("div", {class: "group"}, this.undo, this.redo, this.imports), this.tools.root, this.rings, this.film, element("span", {class: "spring"}),
                  this.workspaces.root, element("span", {class: "spring"}), element("div", {class: "group"}, this.theme, sheet));
     state.on("project", () => this.#project());
     state.on("tool", () => this.tools.set(state.tool));
     state.on("workspace", () => this.#workspace());
     state.on("ghosts marks falloff pins selected project", () => this.#shown());
+    state.on("axes", () => this.#turning());
     this.tools.set(state.tool);
+    this.#turning();
     this.#workspace();
     this.#history({});
   }
+
+  #axes() {
+    const one = ([value, text]) => ({text, chosen: this.state.axes === value, act: () => this.state.set("axes", value)});
+    return [{heading: "Rings turn about"}, ...kRingAxes.map(one)];
+  }
+
+  #turning() { this.axes.setAttribute("aria-pressed", String(this.state.axes !== "numbers")); }
 
   #blends() {
     const one = (frames) => ({text: frames === 0 ? "This frame alone" : `${frames} frames to both sides`, chosen: this.state.falloff === frames,
@@ -88,7 +103,7 @@ export class Header {
 
   #workspace() {
     this.workspaces.set(this.state.workspace);
-    for (const root of [this.tools.root, this.film]) root.classList.toggle("away", this.state.workspace !== "scene");
+    for (const root of [this.tools.root, this.rings, this.film]) root.classList.toggle("away", this.state.workspace !== "scene");
   }
 }
 

@@ -19,7 +19,7 @@ import {JointPanel} from "./panels/joint_panel.js";
 import {MaterialsPanel} from "./panels/materials_panel.js";
 import {MotionsPanel} from "./panels/motions_panel.js";
 import {ScenePanel} from "./panels/scene_panel.js";
-import {State} from "./state.js";
+import {kRingAxes, State} from "./state.js";
 import {Status} from "./status.js";
 import {Tabs} from "./tabs.js";
 import {Theme} from "./theme.js";
@@ -181,6 +181,7 @@ new Keys({
   toolMove: () => state.set("tool", "move"),
   toolBox: inModel(() => state.set("tool", "box")),
   toolPoints: inModel(() => state.set("tool", "points")),
+  nextAxes: () => state.set("axes", kRingAxes[(kRingAxes.findIndex(([axes]) => axes === state.axes) + 1) % kRingAxes.length][0]),
   toolReach: () => state.set("tool", "reach"),
   pin: () => edits.pin(),
   goToView: (keys) => views.go(Number(keys) - 1),

@@ -19,6 +19,7 @@ export const kShortcuts = [
   {group: "Tools", keys: ["R"], name: "toolBox", text: "Pull the sides of the bounding box", at: "page"},
   {group: "Tools", keys: ["T"], name: "toolPoints", text: "Pull control points", at: "page"},
   {group: "Tools", keys: ["Y"], name: "toolReach", text: "Reach: a pull at a hand or foot turns its whole limb", at: "page", film: true},
+  {group: "Tools", keys: ["X"], name: "nextAxes", text: "Rings about the joint's numbers, its own axes, its parent's, the world's in turn", at: "page"},
   {group: "Tools", keys: ["P"], name: "pin", text: "Pin the selected hand or foot: it stays while others are pulled", at: "page", film: true},
 
   {group: "Views", keys: ["1", "2", "3", "4"], name: "goToView", text: "Go to a view", at: "page"},

@@ -1,12 +1,17 @@
 // What the page knows: the project as the studio sent it, and what is selected here. Others listen to what concerns
-// them: "project", "poses", "selected", "tool", "view" (the active one), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
+// them: "project", "poses", "selected", "tool", "axes", "view" (the active one), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
 // "curves", "ghosts", "marks", "falloff", "pins".
+
+// What rings turn about, and how people read it.
+export const kRingAxes = [["numbers", "The joint's three numbers, within their limits"], ["joint", "The joint's own axes, as they stand"],
+                          ["parent", "The axes of its parent"], ["world", "The axes of the world"]];
 
 export class State {
   #listeners = new Map();
   project = null;
   selected = {actor: null, joint: null, thing: null};  // thing: the camera or a light, instead of the others
   tool = "turn";
+  axes = kRingAxes.find(([axes]) => axes === localStorage.getItem("axes"))?.[0] ?? "numbers";  // of rings; kept
   activeView = 0;
   workspace = "scene";  // or "rendering"
   range = null;         // [first, last] frames that play; null: all
@@ -56,6 +61,7 @@ export class State {
   set(what, value) {
     if (this[what] === value) return;
     this[what] = value;
+    if (what === "axes") localStorage.setItem("axes", value);
     this.tell(what === "activeView" ? "view" : what);
   }
 

@@ -60,7 +60,7 @@ export class View {
     if (width === 0 || height === 0) return;
     const {from, orbit, as, hidden, ground, handles} = this.shown;
     const message = {do: "view", view: this.number, width, height, from, orbit, as, hidden, ground,
-                     handles: handles ? this.state.tool : "none", ...this.#ofFilms()};
+                     handles: handles ? this.state.tool : "none", axes: this.state.axes, ...this.#ofFilms()};
     this.pace.send(`view ${this.number}`, message, event ?? kNoEvent);
   }
 

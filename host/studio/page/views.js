@@ -17,7 +17,7 @@ export class Views {
     this.#listen(parts);
     this.state.on("view", () => this.#showActive());
     this.state.on("project", () => this.views.forEach((view) => view.refit()));
-    this.state.on("tool ghosts marks", () => this.views.forEach((view) => view.ask()));
+    this.state.on("tool axes ghosts marks", () => this.views.forEach((view) => view.ask()));
     this.#showActive();
   }
 

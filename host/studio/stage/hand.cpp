@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include "host/content/animator/pose/angles.h"
+#include "host/content/animator/pose/axis_turn.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/hand_words.h"
 
@@ -25,9 +28,11 @@ glm::dmat3 linear_of(const wire::Matrix& matrix) {
 Hand::Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse)
     : project_(project), selection_(selection), mouse_(screen, mouse) {}
 
-void Hand::take(const Grip& grip) {
+void Hand::take(const Grip& grip, RingAxes axes) {
   grip_ = grip;
   posed_ = posed(project_, selection_).value();
+  pose_ = posed_.pose;
+  axes_ = ring_axes_of(*posed_.joint, axes);
   const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
   if (grip.what == Grip::What::arrow || grip.what == Grip::What::plane) {
     const bool of_joint = project_.is_model();
@@ -100,7 +105,7 @@ Json Hand::turn_step(const glm::dvec3& turn) const {
 // Degrees about the ring's axis, by the mouse's way round its center; where the ring is seen from its edge, by the way
 // along it.
 double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
-  const TurnAxis axis = posed_.axis(grip_->axis);
+  const TurnAxis axis = posed_.axis(grip_->axis, axes_);
   const auto center = mouse_.screen().pixel_of(axis.center);
   if (!center) return 0;
   const glm::dvec3 to_eye = mouse_.screen().towards_eye(axis.center);
@@ -110,11 +115,18 @@ double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
     return glm::dot(now - before, glm::normalize(way)) / ring_pixels(grip_->axis) / modeler::kDegree;
   }
   const glm::dvec2 from = before - *center, to = now - *center;
-  const double angle = std::atan2(from.x * to.y - from.y * to.x, glm::dot(from, to)) / modeler::kDegree;
+  const double angle = elementary::atan2(from.x * to.y - from.y * to.x, glm::dot(from, to)) / modeler::kDegree;
   return facing > 0 ? -angle : angle;  // y is down
 }
 
+// About another axis than a number's the turn is what the mouse asks for, held within the limits number by number.
 std::optional<Json> Hand::follow_ring() {
+  if (axes_ != RingAxes::numbers) {
+    const glm::dvec3 axis = glm::transpose(posed_.parent.turn) * posed_.axis(grip_->axis, axes_).axis;
+    const animator::Turned turned = animator::turned_about(*posed_.joint, posed_.pose, axis, wound_, pose_);
+    pose_ = animator::clamped(*posed_.joint, turned.pose);
+    return turn_step(pose_);
+  }
   glm::dvec3 pose = posed_.pose;
   const modeler::Limits& limits = posed_.joint->limits[static_cast<std::size_t>(grip_->axis)];
   pose[grip_->axis] = std::clamp(pose[grip_->axis] + wound_, limits.lower, limits.upper);
@@ -177,7 +189,7 @@ std::optional<Json> Hand::follow_point(bool along_axis) {
     by = mouse_.along(world_, linear[nearest]);
   }
   if (!by) return std::nullopt;
-  const glm::dvec3 to = place_ + glm::inverse(linear) * *by;
+  const glm::dvec3 to = glm::clamp(place_ + glm::inverse(linear) * *by, 0.0, 1.0);  // shapes stay in their box
   std::vector<std::string> options{"--patch", std::to_string(grip_->patch), "--at", std::to_string(grip_->i),
                                    std::to_string(grip_->j)};
   add_option(options, "--to", {to.x, to.y, to.z});

@@ -25,7 +25,7 @@ class Hand {
   // `project` must outlive it; the camera stays as it is at the beginning.
   Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse);
 
-  void take(const Grip& grip);
+  void take(const Grip& grip, RingAxes axes = RingAxes::numbers);
   // The limb there turns about its joint; where that cannot turn, about the nearest above that can. False: none can.
   bool take(const Hit& hit);
 
@@ -49,9 +49,10 @@ class Hand {
   MouseWay mouse_;
   std::optional<Grip> grip_;
   std::optional<Held> held_;
-  Posed posed_{};              // at the beginning
+  Posed posed_{};  // at the beginning
+  RingAxes axes_ = RingAxes::numbers;
   double wound_ = 0;           // degrees, of a ring
-  glm::dvec3 pose_{0, 0, 0};   // of the limb, as it was shown last
+  glm::dvec3 pose_{0, 0, 0};   // as it was shown last
   glm::dvec3 place_{0, 0, 0};  // at the beginning: what is moved, in its own coordinates
   glm::dvec3 world_{0, 0, 0};  // the same place in the world
   modeler::Axes frame_{};      // of the segment

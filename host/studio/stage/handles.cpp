@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "host/content/animator/pose/axis_turn.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/modeler/bent_skin.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/reach_place.h"
@@ -37,11 +39,11 @@ class HandleMaker {
   HandleMaker(const Project& project, const Selection& selection, const Screen& screen)
       : project_(project), selection_(selection), screen_(screen) {}
 
-  std::vector<Handle> make(Tool tool) {
+  std::vector<Handle> make(Tool tool, RingAxes axes) {
     if (tool == Tool::none || !selection_.actor) return {};
     add_joints();
     const auto posed = studio::posed(project_, selection_);
-    if (tool == Tool::turn && posed) add_rings(*posed);
+    if (tool == Tool::turn && posed) add_rings(*posed, axes);
     if (tool == Tool::move && posed) add_arrows(*posed);
     if (tool == Tool::reach) add_reach();
     if (tool == Tool::box && project_.is_model()) add_box();
@@ -75,9 +77,13 @@ class HandleMaker {
     }
   }
 
-  void add_rings(const Posed& posed) {
+  // The axes of others are no axes of the joint, which may be locked.
+  void add_rings(const Posed& posed, RingAxes chosen) {
+    const RingAxes axes = ring_axes_of(*posed.joint, chosen);
+    const bool of_others = axes == RingAxes::parent || axes == RingAxes::world;
     for (int number = 0; number < 3; ++number)
-      if (posed.joint->limits[static_cast<std::size_t>(number)].free()) add_ring(posed.axis(number), number);
+      if (of_others || posed.joint->limits[static_cast<std::size_t>(number)].free())
+        add_ring(posed.axis(number, axes), number);
   }
 
   void add_ring(const TurnAxis& axis, int number) {
@@ -85,7 +91,7 @@ class HandleMaker {
     const glm::dvec3 across = glm::cross(axis.axis, axis.zero);
     const auto at = [&](double degrees, double far) {
       const double angle = degrees * modeler::kDegree;
-      return axis.center + far * (std::cos(angle) * axis.zero + std::sin(angle) * across);
+      return axis.center + far * (elementary::cos(angle) * axis.zero + elementary::sin(angle) * across);
     };
     const bool whole = axis.limits.upper - axis.limits.lower >= 360;
     const double from = whole ? 0 : axis.limits.lower, to = whole ? 360 : axis.limits.upper;
@@ -99,7 +105,8 @@ class HandleMaker {
       for (const double limit : {from, to})
         add_line({"limit:" + name, "limit", {}, name, shown_angle(limit)},
                  {at(limit, radius - tick), at(limit, radius + tick)});
-    add_place({"label:" + name, "label", {}, name, name + " " + shown_angle(axis.angle)}, at(axis.angle, radius));
+    add_place({"label:" + name, "label", {}, name, axis.angle ? name + " " + shown_angle(*axis.angle) : name},
+              at(axis.angle.value_or(0), radius));
   }
 
   // A model's joint is moved along its parent's axes, a film's actor along the world's.
@@ -192,16 +199,23 @@ wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, con
       .matrix_of(shape.net->bones[shape.net->columns * point.j + point.i]);
 }
 
-TurnAxis Posed::axis(int number) const {
-  modeler::Joint before = *joint;
-  glm::dvec3 turned(0);  // by the numbers before this one
-  for (int i = 0; i < number; ++i) turned[i] = pose[i];
-  const glm::dmat3 turn = parent.turn * modeler::orientation(before, turned);
-  const glm::dvec3 z_axis = glm::normalize(glm::cross(joint->x_axis, joint->y_axis));
-  const glm::dvec3 axes[] = {joint->x_axis, joint->y_axis, z_axis};
-  const glm::dvec3 axis = turn * axes[number], next = turn * axes[(number + 1) % 3];
-  return {center, axis, glm::normalize(next - glm::dot(next, axis) * axis), pose[number],
-          joint->limits[static_cast<std::size_t>(number)]};
+RingAxes ring_axes_of(const modeler::Joint& joint, RingAxes chosen) {
+  return joint.freedoms() < 2 ? RingAxes::numbers : chosen;
+}
+
+TurnAxis Posed::axis(int number, RingAxes axes) const {
+  const bool by_number = axes == RingAxes::numbers;
+  glm::dvec3 turned = pose;
+  if (by_number)
+    for (int i = number; i < 3; ++i) turned[i] = 0;  // only the numbers before this one count
+  const auto way = [&](int i) {
+    if (axes == RingAxes::world) return unit(i);
+    return parent.turn * (axes == RingAxes::parent ? unit(i) : animator::present_axis(*joint, turned, i));
+  };
+  const glm::dvec3 axis = way(number), next = way((number + 1) % 3);
+  const glm::dvec3 zero = glm::normalize(next - glm::dot(next, axis) * axis);
+  if (!by_number) return {center, axis, zero, std::nullopt, {}};
+  return {center, axis, zero, pose[number], joint->limits[static_cast<std::size_t>(number)]};
 }
 
 std::optional<Posed> posed(const Project& project, const Selection& selection) {
@@ -223,8 +237,9 @@ std::optional<modeler::Axes> segment_frame_of(const Project& project, const Sele
   return modeler::segment_frame(state.joints[*selection.joint], joint);
 }
 
-std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, const Screen& screen) {
-  return HandleMaker(project, selection, screen).make(tool);
+std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, RingAxes axes,
+                               const Screen& screen) {
+  return HandleMaker(project, selection, screen).make(tool, axes);
 }
 
 double ring_pixels(int axis) { return kRingPixels[axis]; }

@@ -18,6 +18,12 @@ namespace mars::studio {
 enum class Tool { none, turn, move, box, points, reach };
 inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points", "reach"};
 
+// What rings turn about: each of the three numbers of a pose, within its limits; the joint's own axes as they stand;
+// its parent's; the world's. Rings of a joint with at most one freedom are by its number, whatever is chosen.
+enum class RingAxes { numbers, joint, parent, world };
+inline constexpr const char* kRingAxes[] = {"numbers", "joint", "parent", "world"};
+RingAxes ring_axes_of(const modeler::Joint& joint, RingAxes chosen);
+
 // What a hand takes hold of.
 struct Grip {
   enum class What { ring, arrow, plane, face, point, size } what;
@@ -44,13 +50,13 @@ struct Handle {
   bool fine = true;  // to a hundredth of a pixel, else to a tenth: of many
 };
 
-// An axis about which a pose turns, by one of its numbers.
+// An axis about which a pose turns.
 struct TurnAxis {
   glm::dvec3 center;
-  glm::dvec3 axis;  // a unit vector, as turned by the numbers before it
-  glm::dvec3 zero;  // across it: where the ring's angle is 0
-  double angle;     // degrees
-  modeler::Limits limits;
+  glm::dvec3 axis;              // a unit vector; of a number, as turned by the numbers before it
+  glm::dvec3 zero;              // across it: where the ring's angle is 0
+  std::optional<double> angle;  // degrees, of a number
+  modeler::Limits limits;       // of a number
 };
 
 // A joint's, or a whole actor's, as it stands.
@@ -60,7 +66,7 @@ struct Posed {
   glm::dvec3 center;            // in the world
   glm::dvec3 pose;
 
-  TurnAxis axis(int number) const;
+  TurnAxis axis(int number, RingAxes axes = RingAxes::numbers) const;
 };
 
 // None: nothing is selected, or matrices move the actor.
@@ -73,7 +79,8 @@ std::optional<modeler::Axes> segment_frame_of(const Project& project, const Sele
 wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, const animator::ActorState& state,
                              const Grip& point);
 
-std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, const Screen& screen);
+std::vector<Handle> handles_of(const Project& project, const Selection& selection, Tool tool, RingAxes axes,
+                               const Screen& screen);
 
 // The radius of the ring about an axis, as it is seen from before.
 double ring_pixels(int axis);

@@ -18,6 +18,7 @@ struct Beginning {
   const Project& project;
   const Moments& moments;
   Tool tool;
+  RingAxes axes;
   Screen screen;
   glm::dvec2 pixel;
   std::vector<std::size_t> pins;  // joints of the actor that it takes

@@ -124,6 +124,7 @@ class StageOfPages : public Stage {
     view.eye = eye;
     view.look = request.look;
     view.tool = request.tool;
+    view.axes = request.axes;
     view.ghosts = request.ghosts;
     view.marks = request.marks;
     view.orbiting = false;
@@ -233,8 +234,8 @@ class StageOfPages : public Stage {
   Selection take(const PageView& view, const Handle& handle, const glm::dvec2& pixel) {
     const Selection held = held_by(view.page, handle);
     if (held.mark) select(view.page, names_of(project_, held));
-    begin(view, hand_on({project_, moments_, view.tool, screen_of(view), pixel, pins_of(view.page, held)}, held,
-                        *handle.grip));
+    begin(view, hand_on({project_, moments_, view.tool, view.axes, screen_of(view), pixel, pins_of(view.page, held)},
+                        held, *handle.grip));
     return held;
   }
 
@@ -245,8 +246,8 @@ class StageOfPages : public Stage {
     if (!held.actor) return held;
     select(view.page, names_of(project_, held));
     if (!picked.hit) return held;
-    auto hand =
-        hand_on({project_, moments_, view.tool, screen_of(view), pixel, pins_of(view.page, held)}, held, *picked.hit);
+    auto hand = hand_on({project_, moments_, view.tool, view.axes, screen_of(view), pixel, pins_of(view.page, held)},
+                        held, *picked.hit);
     if (hand) begin(view, std::move(*hand));
     return held;
   }
@@ -368,7 +369,7 @@ class StageOfPages : public Stage {
     const auto add = [&](std::vector<Handle> more) { std::ranges::move(more, std::back_inserter(handles)); };
     if (view.marks && view.eye.from != From::camera) add(marks_of(project_, moments_, selection, view.tool, screen));
     add(pin_handles(project_, selection, pins_of(view.page, selection), screen));
-    add(handles_of(project_, selection, view.tool, screen));
+    add(handles_of(project_, selection, view.tool, view.axes, screen));
     return handles;
   }
 

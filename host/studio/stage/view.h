@@ -40,6 +40,7 @@ struct PageView {
   Eye eye{};
   LineLook look{};  // As::surface: the renderer draws it
   Tool tool = Tool::none;
+  RingAxes axes = RingAxes::numbers;
   GhostFrames ghosts{};
   bool marks = false;     // camera and lights are seen
   bool framed = false;    // the studio chose where the eye is, and chooses again

@@ -54,6 +54,7 @@ ViewMessage read_view(const Json& message) {
   view.look = {static_cast<preview::As>(choice_in(message, "as", kAs)), flag_in(message, "hidden", false),
                flag_in(message, "ground", true)};
   if (message.contains("handles")) view.tool = static_cast<Tool>(choice_in(message, "handles", kTools));
+  if (message.contains("axes")) view.axes = static_cast<RingAxes>(choice_in(message, "axes", kRingAxes));
   const bool chosen = !message.contains("orbit") || message["orbit"].is_null();
   if (view.from != From::camera && !chosen) view.orbit = orbit_in(message["orbit"]);
   view.ghosts = ghosts_in(message);

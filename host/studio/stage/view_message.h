@@ -17,6 +17,7 @@ struct ViewMessage {
   std::optional<preview::Orbit> orbit{};  // none: the studio chooses, or it is the film's camera
   LineLook look{};
   Tool tool = Tool::none;
+  RingAxes axes = RingAxes::numbers;
   GhostFrames ghosts{};
   bool marks = false;
 };

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <string_view>
 
 #include "host/content/animator/keys/pose.h"
+#include "host/content/animator/pose/axis_turn.h"
 #include "host/content/document/file.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/film_file.h"
@@ -83,6 +85,25 @@ TEST_F(Posing, TurnsWithinLimits) {
   EXPECT_TRUE(keys.handle_key(kLeave, 10));
   EXPECT_FALSE(keys.under_way());
   EXPECT_EQ(document::read_file(path_), kFilm);
+}
+
+// y as x has left it, and x as y then stands: by numbers another pose. Limits stop a whole step.
+TEST_F(Posing, TurnsAboutOwnAxesAsTheyStand) {
+  std::string text(kFilm);
+  text.replace(text.find(R"("y": [-60, 60])"), 14, R"("y": [-60, 60], "z": [-50, 50])");
+  document::write_whole_file(path_, text);
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  EXPECT_TRUE(press(keys, "\txxyya").ends_with("turns about the joint's own axes as they stand"));
+  const glm::dvec3 before(10, 10, 0);
+  EXPECT_EQ(keys.pose().pose_at(*film.source, {1, 1}, 10), before);
+  press(keys, "x");
+  const modeler::Joint& stem = film.source->models[0].joints[1];
+  const glm::dvec3 turned = animator::turned_about_own(stem, before, 0, 5).pose;
+  EXPECT_LT(glm::distance(keys.pose().pose_at(*film.source, {1, 1}, 10), turned), 1e-6);
+  EXPECT_LT(turned.z, -0.8);
+  EXPECT_TRUE(press(keys, "xxxxxxx").ends_with("x stops at its limit"));
+  EXPECT_TRUE(press(keys, "a").ends_with("turns by the joint's three numbers"));
 }
 
 TEST_F(Posing, KeysAreThoseOfTheCommand) {

@@ -14,33 +14,17 @@
 namespace mars::animator {
 namespace {
 
-using Eases = std::map<std::uint32_t, Ease>;
-
-// Of the keys that the actor has.
-Eases eases_of(const document::Json& actor) {
-  Eases eases;
-  if (const auto found = actor.find("keys"); found != actor.end())
-    for (const document::Json& key : *found) eases.emplace(key.at("frame").get<std::uint32_t>(), ease_of(key));
-  return eases;
-}
-
-Ease ease_at(const Eases& eases, std::uint32_t frame) {
-  const auto found = eases.find(frame);
-  return found == eases.end() ? kLinear : found->second;
-}
-
 // A slope of the part, if the key has one.
 document::Json slope_of(const std::map<std::string, glm::dvec3>& slopes, const std::string& part) {
   const auto found = slopes.find(part);
   return found == slopes.end() ? document::Json() : written(found->second);
 }
 
-void put(Tracks& tracks, const ActorKey& key, const Eases& eases) {
+void put(Tracks& tracks, const ActorKey& key) {
   const auto set = [&](const std::string& part, document::Json value) {
     Track& track = tracks[part];
     const TrackKey* old = key_at(track, key.frame);
-    TrackKey made{key.frame, std::move(value), key.ease ? *key.ease : old ? old->ease : ease_at(eases, key.frame)};
-    made.own_ease = !key.ease && old && old->own_ease;
+    TrackKey made{key.frame, std::move(value), key.ease ? *key.ease : old ? old->ease : kLinear};
     made.in = slope_of(key.in, part);
     made.out = slope_of(key.out, part);
     put_key(track, std::move(made));
@@ -87,11 +71,10 @@ void put_keys(document::Json& film, const std::string& actor, std::span<const Ac
                   "take its matrices out of the film, or move another actor");
   if (keys.empty()) return;
   Tracks tracks = tracks_of(object);
-  const Eases eases = eases_of(object);
-  for (const ActorKey& key : keys) put(tracks, key, eases);
+  for (const ActorKey& key : keys) put(tracks, key);
   for (auto& [part, track] : tracks)
     if (document::Json still = still_value(object, part); !still.is_null() && !key_at(track, 0))
-      put_key(track, {0, std::move(still), ease_at(eases, 0)});
+      put_key(track, {0, std::move(still), kLinear});
   put_tracks(object, tracks);
 }
 

@@ -251,7 +251,7 @@ Remarks make_keys(document::Json& film, const Film& meaning, const Choice& choic
       key_parts(film, meaning, choice, [&](const std::string& thing, const KeyedPart& part, Track& track) {
         const auto there = [&](std::uint32_t at) { return key_there(thing, part, at, beyond, clamped); };
         if (const auto all = split_way(track, frame, there)) clamped.push_back(remark_of_split(thing, part, *all));
-        if (ease) set_ease(*key_at(track, frame), *ease);
+        if (ease) key_at(track, frame)->ease = *ease;
       });
   append(clamped, remarks);
   return clamped;
@@ -272,7 +272,7 @@ Remarks cut(document::Json& film, const Film& meaning, const Choice& choice, std
     keep_slopes(track, last);
     keep_slopes(track, frame);
     TrackKey& stays = *key_at(track, last);
-    set_ease(stays, kHold);
+    stays.ease = kHold;
     stays.out = key_at(track, frame)->in = nullptr;
   };
   append(remarks, key_parts(film, meaning, choice, cut_part));
@@ -297,7 +297,7 @@ Remarks ease_keys(document::Json& film, const Film& meaning, const Choice& choic
     bool any = false;
     for (TrackKey& key : track)
       if (range.holds(key.frame)) {
-        set_ease(key, ease);
+        key.ease = ease;
         any = true;
       }
     return any;

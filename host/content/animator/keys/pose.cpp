@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/matrix.hpp>
 #include <map>
 #include <set>
 
 #include "hal/failure/failure.h"
 #include "host/content/animator/pose/attachments.h"
+#include "host/content/animator/pose/axis_turn.h"
+#include "host/content/animator/pose/rotation.h"
 #include "host/content/animator/keys/edit.h"
 #include "host/content/animator/keys/frame_words.h"
 #include "host/content/animator/keys/pops.h"
@@ -15,6 +18,7 @@
 #include "host/content/animator/keys/tracks.h"
 #include "host/content/animator/keys/written.h"
 #include "host/content/document/fields.h"
+#include "host/content/modeler/frames.h"
 
 namespace mars::animator {
 namespace {
@@ -34,15 +38,54 @@ document::Json point_after(const PartSetting& setting, document::Json now) {
   return now;
 }
 
+// The joint, where the part turns about three axes; else null.
+const modeler::Joint* joint_of(const KeyedPart& part) { return part.joint ? part.joint : part.turns; }
+
+// A value of the part, as its key holds it.
+document::Json held(const Thing& thing, const KeyedPart& part, const glm::dvec3& pose, Beyond beyond, Remarks& remarks,
+                    const std::string& asked = "") {
+  return written(part.joint ? within_limits(thing.name, *part.joint, pose, beyond, remarks, asked) : pose);
+}
+
+// Turned about its own axis. The setting names one.
+document::Json value_after_own_turn(const PartSetting& setting, const Thing& thing, const document::Json& now,
+                                    Beyond beyond, Remarks& remarks) {
+  const KeyedPart& part = thing.part(setting.part);
+  int axis = 0;
+  while (!setting.numbers[static_cast<std::size_t>(axis)]) ++axis;
+  const double degrees = *setting.numbers[static_cast<std::size_t>(axis)];
+  const Turned turned = turned_about_own(*joint_of(part), vector_of(now), axis, degrees);
+  const std::string asked = "turned " + document::shown(degrees) + " degrees about its own " + "xyz"[axis];
+  if (!turned.reached()) {
+    const std::string what = asked + ", stands as its skewed axes do not reach",
+                      name = thing.name + ", joint '" + shown_part(part.name) + "'";
+    if (beyond == Beyond::refused)
+      throw Failure(what, name, "--clamp takes what comes near, or turn it about another axis");
+    remarks.push_back(name + ": " + what + ": keyed near that");
+  }
+  return held(thing, part, rounded(turned.pose), beyond, remarks, asked);
+}
+
 // What the part is to be: its numbers `now`, those given exchanged.
-document::Json value_after(const PartSetting& setting, const Thing& thing, document::Json now, Beyond beyond,
+document::Json value_after(const PartSetting& setting, const Thing& thing, document::Json now, const PoseManner& manner,
                            Remarks& remarks) {
+  if (manner.local) return value_after_own_turn(setting, thing, now, manner.beyond, remarks);
   if (now.is_object()) return point_after(setting, std::move(now));
   if (!now.is_array()) return written(number_after(setting, 0, now.get<double>()));
   for (std::size_t axis = 0; axis < now.size(); ++axis)
     now[axis] = written(number_after(setting, axis, now[axis].get<double>()));
   const KeyedPart& part = thing.part(setting.part);
-  return part.joint ? written(within_limits(thing.name, *part.joint, vector_of(now), beyond, remarks)) : now;
+  return part.joint ? held(thing, part, vector_of(now), manner.beyond, remarks) : now;
+}
+
+// Refuses what is no turn about one axis.
+void require_own_turn(const PartSetting& setting, const std::string& text, const Thing& thing) {
+  const auto given = std::ranges::count_if(setting.numbers, [](const auto& number) { return number.has_value(); });
+  if (!joint_of(thing.part(setting.part)))
+    throw Failure("is no joint that could turn about its own axis", thing.name + ", '" + shown_part(setting.part) + "'",
+                  "--local turns joints and whole actors; leave it out here");
+  if (!setting.relative || given != 1)
+    throw Failure("is no turn about one axis", "'" + text + "'", "with --local write it like elbow.x+=30");
 }
 
 // Refuses an axis that an earlier setting has set; `set` are the parts and axes of those.
@@ -52,7 +95,7 @@ void refuse_twice(const PartSetting& setting, const std::string& text, std::set<
       throw Failure("sets what an earlier word has set", "'" + text + "'", "give each part and axis once");
 }
 
-// A new key goes on as the way did on which it stands.
+// A new key goes on as the way did on which it stands. Where it stands on none, the eases of other parts are theirs.
 Ease ease_there(const Track& track, std::uint32_t frame) {
   for (std::size_t i = 0; i + 1 < track.size(); ++i)
     if (track[i].frame <= frame && frame < track[i + 1].frame) return track[i].ease;
@@ -68,6 +111,12 @@ std::array<double, 3> change_between(const document::Json& from, const document:
       change[axis] = to[axis].get<double>() - from[axis].get<double>();
   return change;
 }
+
+// A change of a key, as the keys beside it take a part of it.
+struct Change {
+  std::array<double, 3> numbers;
+  std::optional<Turn> own{};  // instead: a turn about an axis in the joint's own frame
+};
 
 // Gathers settings of one thing, then makes them its keys.
 class Posing {
@@ -90,7 +139,7 @@ class Posing {
     // A second setting for the part keeps what the first one set.
     const bool again = !set_.insert(part.name).second;
     const document::Json now = again ? key->value : setting.relative ? part.key_at(frame) : part.value_at(frame);
-    document::Json value = value_after(setting, thing(), now, manner_.beyond, remarks_);
+    document::Json value = value_after(setting, thing(), now, manner_, remarks_);
     if (key != nullptr)
       key->value = std::move(value);
     else
@@ -109,7 +158,7 @@ class Posing {
     touch(thing().part(setting.part), {first->frame, std::find_if(keys.rbegin(), keys.rend(), held)->frame});
     for (TrackKey& key : track->second) {
       if (!range.holds(key.frame)) continue;
-      key.value = value_after(setting, thing(), key.value, manner_.beyond, remarks_);
+      key.value = value_after(setting, thing(), key.value, manner_, remarks_);
       frames_.insert(key.frame);
     }
     return true;
@@ -160,9 +209,9 @@ class Posing {
   void blend(const std::string& part, FrameRange range) {
     Track& track = tracks_[part];
     const auto change_at = [&](std::uint32_t frame) {
-      return change_between(thing().part(part).value_at(frame), key_at(track, frame)->value);
+      return change_of(thing().part(part), thing().part(part).value_at(frame), key_at(track, frame)->value);
     };
-    const std::array<double, 3> at_first = change_at(range.first), at_last = change_at(range.last);
+    const Change at_first = change_at(range.first), at_last = change_at(range.last);
     Remarks clamped;
     const FrameRange shot = shot_of(before_[part], range);
     for (TrackKey& key : track) {
@@ -180,11 +229,30 @@ class Posing {
     return near * near * (3 - 2 * near);
   }
 
-  void change(TrackKey& key, const std::string& part, const std::array<double, 3>& by, double share, Remarks& remarks) {
-    PartSetting setting{part, {}, true};
-    for (std::size_t axis = 0; axis < by.size(); ++axis)
-      if (std::abs(by[axis]) > kNoChange) setting.numbers[axis] = share * by[axis];
-    key.value = value_after(setting, thing(), key.value, manner_.beyond, remarks);
+  // A turn about an own axis may change all three numbers: keys beside it take a part of the turn, not of the numbers.
+  Change change_of(const KeyedPart& part, const document::Json& from, const document::Json& to) const {
+    Change change{change_between(from, to)};
+    if (!manner_.local || !part.turns) return change;
+    const auto seen_from_joint = [&](const document::Json& pose) {
+      return glm::transpose(modeler::orientation(*part.turns, vector_of(pose)));
+    };
+    change.own = turn_between(seen_from_joint(to), seen_from_joint(from));
+    return change;
+  }
+
+  void change(TrackKey& key, const std::string& name, const Change& by, double share, Remarks& remarks) {
+    const KeyedPart& part = thing().part(name);
+    if (by.own) {
+      const glm::dvec3 pose = vector_of(key.value);
+      const glm::dvec3 axis = modeler::orientation(*part.turns, pose) * by.own->axis;
+      const Turned turned = turned_about(*part.turns, pose, axis, share * by.own->angle / modeler::kDegree, pose);
+      key.value = held(thing(), part, rounded(turned.pose), manner_.beyond, remarks);
+      return;
+    }
+    PartSetting setting{name, {}, true};
+    for (std::size_t axis = 0; axis < by.numbers.size(); ++axis)
+      if (std::abs(by.numbers[axis]) > kNoChange) setting.numbers[axis] = share * by.numbers[axis];
+    key.value = value_after(setting, thing(), key.value, {.beyond = manner_.beyond}, remarks);
   }
 
   void find_pops(const std::string& part, FrameRange range) {
@@ -259,7 +327,10 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
   std::vector<PartSetting> all;
   for (const std::string& text : settings) {
     const std::vector<PartSetting> parts = read_settings(text, posing.thing());
-    for (const PartSetting& part : parts) refuse_twice(part, text, set);
+    for (const PartSetting& part : parts) {
+      refuse_twice(part, text, set);
+      if (manner.local) require_own_turn(part, text, posing.thing());
+    }
     all.insert(all.end(), parts.begin(), parts.end());
     if (range.first != range.last)
       turn_all_keys(posing, parts, range, text);
@@ -285,7 +356,7 @@ bool show_pose(Film& film, document::Json& json, const std::string& name, std::s
       const auto again = values.find(setting.part);
       const document::Json now =
           again == values.end() ? thing.part(setting.part).value_at(frame) : written(again->second);
-      values[setting.part] = vector_of(value_after(setting, thing, now, beyond, remarks));
+      values[setting.part] = vector_of(value_after(setting, thing, now, {.beyond = beyond}, remarks));
       all.push_back(setting);
     }
   for (const auto& [part, value] : values)

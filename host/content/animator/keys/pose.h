@@ -1,5 +1,5 @@
 // Posing: a figure, the camera, a light or a material, set at a frame by what a person wants of its parts; the limits
-// of joints are held. The thesis's quadruple (model, segment, axis, angle) is one of these settings.
+// of joints are held. The thesis's quadruple (model, segment, axis, angle) is one of these settings that is `local`.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +19,9 @@ struct PoseManner {
   // Frames to both sides into which the change of each part is blended, less and less: the keys there change, and what
   // is beyond them stays as it is. 0: the frame alone.
   std::uint32_t falloff = 0;
+  // Each setting is a turn of a joint or of a whole actor about its own axis as it stands, one after the other (thesis
+  // 3.3); where several keys change, each about its own.
+  bool local = false;
 };
 
 // Sets the thing `name` (Choice::thing) at the frame. A part without keys also gets one at frame 0, as it was, so that

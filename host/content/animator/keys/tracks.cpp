@@ -15,27 +15,20 @@ bool before(const TrackKey& key, std::uint32_t frame) { return key.frame < frame
 // What carries an actor stays from key to key: it has no ease.
 bool has_ease(const std::string& part) { return part != "attach"; }
 
-// That of the key as it was, while any part that leads on goes by it; else that of most. Where none leads on, all
-// count.
-Ease common_ease(const Tracks& tracks, const Held& held, const document::Json& old) {
-  std::vector<Ease> eases, all;
-  for (const auto& [part, key] : held) {
-    if (!has_ease(part)) continue;
-    all.push_back(key->ease);
-    if (leads_on(tracks.at(part), *key)) eases.push_back(key->ease);
-  }
-  if (eases.empty()) eases = std::move(all);
+// That of the key as it was, while any part goes by it; else that of most.
+Ease common_ease(const Held& held, const document::Json& old) {
+  std::vector<Ease> eases;
+  for (const auto& [part, key] : held)
+    if (has_ease(part)) eases.push_back(key->ease);
   const Ease was = ease_of(old);
   if (eases.empty() || (!old.empty() && std::ranges::count(eases, was) > 0)) return was;
   return *std::ranges::max_element(eases, {}, [&](const Ease& ease) { return std::ranges::count(eases, ease); });
 }
 
-// The part's value, as an object where its slopes or its ease are its own.
-document::Json value_of(const Tracks& tracks, const std::string& part, const TrackKey& key, const Ease& common) {
-  const Track& track = tracks.at(part);
-  // A spline goes on from a value that stays, too.
-  const bool swings = common.spline && &key != &track.back();
-  const bool own_ease = key.ease != common && (key.own_ease || swings || leads_on(track, key));
+// The part's value, as an object where its slopes or its ease are its own. A part that stays, or whose last key this
+// is, keeps its ease, too, for the keys to come.
+document::Json value_of(const std::string& part, const TrackKey& key, const Ease& common) {
+  const bool own_ease = key.ease != common;
   if (!has_ease(part) || (!own_ease && key.in.is_null() && key.out.is_null())) return key.value;
   document::Json value = {{"value", key.value}};
   if (own_ease) value["ease"] = written(key.ease);
@@ -45,12 +38,11 @@ document::Json value_of(const Tracks& tracks, const std::string& part, const Tra
 }
 
 // The values of `held` in the order of `old`, then those that are new.
-document::Json values_of(const Tracks& tracks, const Held& held, const Ease& common, const document::Json& old,
-                         bool joints) {
+document::Json values_of(const Held& held, const Ease& common, const document::Json& old, bool joints) {
   document::Json values = document::Json::object();
   const auto put = [&](const std::string& name) {
     if (const auto found = held.find(joints ? "/" + name : name); found != held.end())
-      values[name] = value_of(tracks, found->first, *found->second, common);
+      values[name] = value_of(found->first, *found->second, common);
   };
   if (old.is_object())
     for (const auto& item : old.items()) put(item.key());
@@ -71,11 +63,11 @@ document::Json ordered_as(const document::Json& old, const document::Json& key) 
   return ordered;
 }
 
-document::Json key_of(const Tracks& tracks, std::uint32_t frame, const Held& held, const document::Json& old) {
-  const Ease common = common_ease(tracks, held, old);
+document::Json key_of(std::uint32_t frame, const Held& held, const document::Json& old) {
+  const Ease common = common_ease(held, old);
   document::Json key = {{"frame", frame}};
-  key.update(values_of(tracks, held, common, old, false));
-  const document::Json pose = values_of(tracks, held, common, old.value("pose", document::Json()), true);
+  key.update(values_of(held, common, old, false));
+  const document::Json pose = values_of(held, common, old.value("pose", document::Json()), true);
   if (!pose.empty()) key["pose"] = pose;
   if (common != kLinear || old.contains("ease")) key["ease"] = written(common);
   return ordered_as(old, key);
@@ -83,8 +75,7 @@ document::Json key_of(const Tracks& tracks, std::uint32_t frame, const Held& hel
 
 TrackKey track_key(std::uint32_t frame, const document::Json& written, const Ease& common) {
   if (!written.is_object() || !written.contains("value")) return {frame, written, common};
-  const bool own_ease = written.contains("ease");
-  TrackKey key{frame, written.at("value"), own_ease ? ease_of(written) : common, own_ease};
+  TrackKey key{frame, written.at("value"), written.contains("ease") ? ease_of(written) : common};
   key.in = written.value("in", document::Json());
   key.out = written.value("out", document::Json());
   return key;
@@ -148,7 +139,7 @@ void put_tracks(document::Json& thing, const Tracks& tracks) {
   document::Json keys = document::Json::array();
   for (const auto& [frame, held] : frames) {
     const auto was = old.find(frame);
-    keys.push_back(key_of(tracks, frame, held, was == old.end() ? document::Json::object() : was->second));
+    keys.push_back(key_of(frame, held, was == old.end() ? document::Json::object() : was->second));
   }
   drop_still_values(thing, tracks);
   keys.empty() ? void(thing.erase("keys")) : void(thing["keys"] = std::move(keys));
@@ -172,15 +163,10 @@ void put_key(Track& track, TrackKey key) {
     track.insert(place, std::move(key));
 }
 
-void set_ease(TrackKey& key, const Ease& ease) {
-  key.ease = ease;
-  key.own_ease = true;
-}
-
 void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease) {
   for (const std::string& part : parts)
     if (const auto track = tracks.find(part); track != tracks.end())
-      if (TrackKey* key = key_at(track->second, frame)) set_ease(*key, ease);
+      if (TrackKey* key = key_at(track->second, frame)) key->ease = ease;
 }
 
 std::string shown_part(const std::string& part) { return part[0] == '/' ? part.substr(1) : part; }

@@ -18,7 +18,6 @@ struct TrackKey {
   std::uint32_t frame;
   document::Json value;
   Ease ease;                   // to the next key of the part
-  bool own_ease = false;       // meant for this part alone: it stays even while nothing moves on from here
   document::Json in{}, out{};  // slopes of splines, a frame; null: none
 };
 
@@ -30,7 +29,7 @@ Tracks tracks_of(const document::Json& thing);
 Tracks tracks_of(const document::Json& thing, const std::vector<std::string>& parts);  // of `parts` alone
 
 // Makes them the thing's keys; still values of what is keyed now go. Where parts of one frame have several eases, the
-// key keeps the one it has, if any part that moves on goes by it, else has that of most; the others have their own.
+// key keeps the one it has, if any part has it, else has that of most; the others have their own.
 void put_tracks(document::Json& thing, const Tracks& tracks);
 
 // Whether anything changes from the track's key to the next.
@@ -42,8 +41,7 @@ TrackKey* key_at(Track& track, std::uint32_t frame);
 // Puts a key in its place, instead of one at its frame.
 void put_key(Track& track, TrackKey key);
 
-// Gives the key an ease of its own; and the parts' keys at the frame.
-void set_ease(TrackKey& key, const Ease& ease);
+// Gives the parts' keys at the frame an ease.
 void set_ease(Tracks& tracks, const std::set<std::string>& parts, std::uint32_t frame, const Ease& ease);
 
 // As people name a part: joints without the slash.

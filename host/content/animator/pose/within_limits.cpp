@@ -19,16 +19,16 @@ std::string beyond_limits(const modeler::Limits& limits, int axis, double angle)
 }  // namespace
 
 glm::dvec3 within_limits(const std::string& thing, const modeler::Joint& joint, const glm::dvec3& pose, Beyond beyond,
-                         Remarks& remarks) {
+                         Remarks& remarks, const std::string& asked) {
   const glm::dvec3 nearest = clamped(joint, pose);
   if (largest_excess(joint, pose) <= kAngleRounding) return nearest;
-  const std::string name = thing + ", joint '" + joint.name + "'";
+  const std::string name = thing + ", joint '" + joint.name + "'", by = asked.empty() ? "" : asked + ", ";
   if (beyond == Beyond::refused)
-    throw Failure(*broken_limit(joint, pose), name,
+    throw Failure(by + *broken_limit(joint, pose), name,
                   "--clamp takes the nearest allowed, or widen the limits in its model");
   for (int axis = 0; axis < 3; ++axis)
     if (excess_of(joint, pose)[axis] > kAngleRounding)
-      remarks.push_back(name + ": " + beyond_limits(joint.limits[axis], axis, pose[axis]) + ": keyed as " +
+      remarks.push_back(name + ": " + by + beyond_limits(joint.limits[axis], axis, pose[axis]) + ": keyed as " +
                         document::shown(nearest[axis]));
   return nearest;
 }

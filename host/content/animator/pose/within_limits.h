@@ -15,8 +15,9 @@ using Remarks = std::vector<std::string>;
 enum class Beyond { refused, clamped };
 
 // The nearest pose within the limits. If that is another than by rounding: throws, naming joint, axis, angle and range,
-// where `beyond` refuses it; else adds a remark for each such axis.
+// where `beyond` refuses it; else adds a remark for each such axis. `asked`: what made the pose where that is not its
+// numbers, like "turned 30 degrees about its own x", for these messages.
 glm::dvec3 within_limits(const std::string& thing, const modeler::Joint& joint, const glm::dvec3& pose, Beyond beyond,
-                         Remarks& remarks);
+                         Remarks& remarks, const std::string& asked = "");
 
 }  // namespace mars::animator

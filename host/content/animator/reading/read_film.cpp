@@ -285,10 +285,7 @@ modeler::Model read_film_model(const document::Element& element, const Film& fil
   std::vector<std::string_view> materials;
   for (const MaterialMotion& material : film.materials) materials.push_back(material.name);
   if (element.kind() == document::Kind::text) {
-    const std::filesystem::path path = folder / document::read_text(element);
-    if (!document::file_exists(path))
-      element.refuse("is " + document::in_quotes(path.string()) + ", which does not exist",
-                     "name a model file as seen from the film's folder");
+    const std::filesystem::path path = document::read_file_name(element, folder);
     const document::Document model = document::read_document(element, path);
     return modeler::read_model(model.root(), materials);
   }
@@ -341,7 +338,7 @@ void check_version(const document::Element& film) {
 void read_settings(const document::Fields& fields, Film& film) {
   film.frames = document::read_count(fields.required("frames"), fields.key("frames"));
   film.rate = fields.number("rate");
-  if (const auto audio = fields.find("audio")) document::read_text(*audio);  // videos have it, no frame
+  if (const auto audio = fields.find("audio")) document::read_file_name(*audio);  // videos have it, no frame
   fields.number("audio_delay");
   read_colors(fields, film);
   read_size(fields.value("size"), film);

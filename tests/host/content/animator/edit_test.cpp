@@ -41,7 +41,9 @@ TEST(PutKeys, ValuesOfAFrameAreReplacedOthersStay) {
     {"frame": 5, "place": [2, 2, 2], "pose": {"a": [1, 2, 3], "b": [0, 4, 0]}, "ease": "in"}])";
   EXPECT_EQ(after(before, {{5, glm::dvec3(7, 8, 9), glm::dvec3(0, 0, 5), {{"b", {0, 80, 0}}}, {}}}).dump(),
             R"({"keys":[{"frame":3,"place":[1,1,1]},)"
-            R"({"frame":5,"place":[7,8,9],"turn":[0,0,5],"pose":{"a":[1,2,3],"b":[0,80,0]},"ease":"in"}]})");
+            R"({"frame":5,"place":[7,8,9],"turn":{"value":[0,0,5],"ease":"linear"},)"
+            R"("pose":{"a":[1,2,3],"b":[0,80,0]},"ease":"in"}]})")
+      << "the key's ease is not that of what it did not have";
 }
 
 TEST(PutKeys, AnEaseReplacesTheOneOfItsFrame) {

@@ -455,6 +455,19 @@ class Controls(Page):
         self.driver.refresh()
         self.until(theme, "dark")
 
+    def test_what_rings_turn_about_is_kept(self):
+        axes = '[data-key="axes"]'
+        self.assertEqual(self.find(axes).get_attribute("aria-pressed"), "false")
+        self.click(axes)
+        self.click(".menu .text", "The joint's own axes, as they stand")
+        self.studio.wait_for("view", view=3, axes="joint")
+        self.js("document.body.focus()")
+        self.chord("x")
+        self.studio.wait_for("view", view=3, axes="parent")
+        self.driver.refresh()
+        self.studio.wait_for("view", view=0, axes="parent")
+        self.assertEqual(self.find(axes).get_attribute("aria-pressed"), "true")
+
     def test_help_lists_every_shortcut(self):
         self.chord("?")
         self.until(lambda: self.js("return document.querySelector('dialog.help')?.open ?? false"))

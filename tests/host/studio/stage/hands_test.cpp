@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "host/content/animator/pose/actor_state.h"
+#include "host/content/animator/pose/rotation.h"
 #include "host/content/film/moment.h"
 #include "host/preview/drawing.h"
 #include "host/preview/viewpoint.h"
@@ -35,6 +36,16 @@ animator::Film arm() {
   return film;
 }
 
+// A joint that turns freely, on one that is turned.
+animator::Film ball() {
+  return film::film_of(R"({"frames": 9, "size": [640, 480], "camera": {"eye": [1, -9, 2], "at": [1, 0, 0]},
+    "models": {"m": {"joints": [
+      {"name": "base", "segment": {"shape": "box", "sbb": [[0, -0.2, -0.2], [1.5, 0.2, 0.2]]}},
+      {"name": "ball", "parent": "base", "place": [1, 0, 0],
+       "segment": {"shape": "box", "sbb": [[0, -0.2, -0.2], [0.5, 0.2, 0.2]]}}]}},
+    "actors": [{"name": "a", "model": "m", "pose": {"base": [10, 20, 40], "ball": [20, 30, 40]}}]})");
+}
+
 struct HandScene : OnStage {
   explicit HandScene(animator::Film film, bool model = false, const std::string& from = "side")
       : OnStage(std::move(film), model) {
@@ -45,10 +56,11 @@ struct HandScene : OnStage {
     if (from == "free") eye.from = From::free;
   }
 
-  void tool(const std::string& handles) {
+  void tool(const std::string& handles, const std::string& axes = "numbers") {
     view(0, kViewWidth, kViewHeight, eye.from == From::free ? "free" : "side", "stick",
          R"(, "orbit": {"center": [1.5, 0, 0], "turn": )" + std::to_string(eye.orbit.turn) + R"(, "height": )" +
-             std::to_string(eye.orbit.height) + R"(, "distance": 9}, "handles": ")" + handles + "\"");
+             std::to_string(eye.orbit.height) + R"(, "distance": 9}, "axes": ")" + axes + R"(", "handles": ")" +
+             handles + "\"");
   }
   Screen screen() const { return {camera_from(eye, 1), kViewWidth, kViewHeight}; }
   glm::dvec2 pixel(const glm::dvec3& place) const { return screen().pixel_of(place).value(); }
@@ -233,6 +245,45 @@ TEST(Hands, RingsShowLimitsAndAngles) {
   scene.take(R"({"do": "hover", "view": 0, )" + xy({first[0].get<double>(), first[1].get<double>()}) + "}");
   EXPECT_EQ(scene.last("hovered")["handle"], "ring:y");
   EXPECT_EQ(scene.shapes("ring:y")[0]["hot"], true);
+}
+
+TEST(Hands, RingsTurnAboutTheAxesChosen) {
+  for (const std::string axes : {"joint", "parent", "world"}) {
+    HandScene scene(ball(), false, "free");
+    scene.eye.orbit.turn = -60;
+    scene.eye.orbit.height = 25;
+    scene.take(R"({"do": "select", "actor": "a", "joint": "ball"})");
+    scene.tool("turn", axes);
+    EXPECT_EQ(scene.shapes("label:y").at(0)["text"], "y") << "no number's angle";
+    EXPECT_TRUE(scene.shapes("limit:y").empty());
+    const Json points = scene.shapes("ring:y").at(0)["points"];
+    const auto at = [&](std::size_t i) { return glm::dvec2(points.at(i)[0], points.at(i)[1]); };
+    const auto handle_under = [&](std::size_t i) {
+      scene.take(R"({"do": "hover", "view": 0, )" + xy(at(i)) + "}");
+      return scene.last("hovered")["handle"];
+    };
+    std::size_t held = 0;  // where no other ring crosses
+    while (handle_under(held) != "ring:y") ++held;
+    const animator::ActorState before = scene.state();
+    scene.grab(at(held));
+    for (std::size_t step = 2; step <= 6; step += 2) scene.drag(at(held + step));
+    scene.drop();
+    const glm::dvec3 wanted = axes == "joint"    ? before.joints[1].turn[1]
+                              : axes == "parent" ? before.joints[0].turn[1]
+                                                 : glm::dvec3(0, 1, 0);
+    const animator::Turn turn = animator::turn_between(before.joints[1].turn, scene.state().joints[1].turn);
+    EXPECT_LT(glm::distance(turn.axis, wanted), 1e-6) << axes;
+    EXPECT_GT(turn.angle / modeler::kDegree, 5) << axes << ", however slanted the ring is seen";
+    EXPECT_TRUE(effect_of(scene.project.commits.at(0)).contains("ball")) << "three numbers, as people can type them";
+  }
+}
+
+TEST(Hands, RingsOfHingesAreOfTheirNumber) {
+  HandScene scene(arm());
+  scene.take(R"({"do": "select", "actor": "a", "joint": "lower"})");
+  scene.tool("turn", "world");
+  EXPECT_TRUE(scene.shapes("ring:x").empty());
+  EXPECT_EQ(scene.shapes("label:y").at(0)["text"], "y 0\u00b0");
 }
 
 TEST(Hands, ArrowsMoveActorsOfFilms) {
