@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
 #include "host/content/document/shell_word.h"
+#include "host/content/elementary/elementary.h"
 #include "host/content/film/film_file.h"
 #include "host/images/half_light.h"
 #include "host/images/picture_file.h"
@@ -45,7 +45,11 @@ FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
 }
 
 images::Image FolderReader::read(std::uint32_t frame) const {
-  const fs::path file = folder_ / sinks::frame_file_name(manifest_, frame);
+  const images::Image picture = picture_of(folder_ / sinks::frame_file_name(manifest_, frame), frame);
+  return images::is_exr(manifest_.format) ? expose(picture, frame) : picture;
+}
+
+images::Image FolderReader::picture_of(const fs::path& file, std::uint32_t frame) const try {
   if (!sinks::is_frame_file(file))
     throw Failure("frame " + std::to_string(frame) + " is missing", folder_.string(), remedy_in(folder_));
   const bool light = images::is_exr(manifest_.format);
@@ -54,7 +58,9 @@ images::Image FolderReader::read(std::uint32_t frame) const {
     throw Failure("has " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
                       " pixels instead of " + std::to_string(manifest_.width) + "x" + std::to_string(manifest_.height),
                   file.string(), remedy_in(folder_));
-  return light ? expose(picture, frame) : picture;
+  return picture;
+} catch (const Failure& failure) {
+  throw sinks::DamagedFrame(failure.problem, failure.where, remedy_in(folder_));
 }
 
 wire::FilmSettings FolderReader::settings_at(std::uint32_t frame, wire::Camera& camera) const {
@@ -66,7 +72,7 @@ wire::FilmSettings FolderReader::settings_at(std::uint32_t frame, wire::Camera& 
     camera = view.camera_at(frame);
   }
   if (exposing_.stops || exposing_.curve) settings.color_space = wire::ColorSpace::linear;
-  if (exposing_.stops) camera.exposure = std::exp2(*exposing_.stops);
+  if (exposing_.stops) camera.exposure = elementary::exp2(*exposing_.stops);
   if (exposing_.curve) settings.curve = *exposing_.curve;
   return settings;
 }

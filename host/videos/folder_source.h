@@ -32,12 +32,13 @@ class FolderReader {
 
   const sinks::Manifest& manifest() const { return manifest_; }
   const std::filesystem::path& folder() const { return folder_; }
-  // From any thread. Throws Failure where its file is missing, torn or of another size.
+  // From any thread. Throws sinks::DamagedFrame where its file is missing, torn or of another size.
   images::Image read(std::uint32_t frame) const;
   // What decides how a frame is shown.
   std::string content(std::uint32_t frame) const;
 
  private:
+  images::Image picture_of(const std::filesystem::path& file, std::uint32_t frame) const;
   wire::FilmSettings settings_at(std::uint32_t frame, wire::Camera& camera) const;
   images::Image expose(const images::Image& light, std::uint32_t frame) const;
 

@@ -32,6 +32,11 @@ std::string text_of(const Mark& mark) {
   return text.dump(-1, ' ', true, json::error_handler_t::replace);
 }
 
+bool is_mark(const std::string& text) {
+  const json from = json::parse(text, nullptr, false);
+  return from.is_object() && from.contains("mars");
+}
+
 std::optional<Mark> mark_of(const std::string& text) try {
   constexpr std::size_t kLongest = 1 << 16;
   const json from = sinks::parse_record(text);

@@ -22,6 +22,8 @@ struct Mark {
 };
 
 std::string text_of(const Mark& mark);
+// Whether it is one of any version: MARS has made the file.
+bool is_mark(const std::string& text);
 // None where it is no such text.
 std::optional<Mark> mark_of(const std::string& text);
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "host/content/document/work_folder.h"
 #include "host/videos/audio.h"
 #include "host/videos/ffmpeg.h"
 #include "host/videos/video_form.h"
@@ -21,6 +22,8 @@ struct Order {
   std::optional<Audio> audio{};
   std::string recipe{};  // as Mark's
   std::size_t piece_frames = kPieceFrames;
+  bool overwrite = false;                      // a file that is there, also one that MARS has not made
+  const document::WorkFolder* work = nullptr;  // the file's, where the caller alone uses it; none: write_video makes it
 };
 
 struct Listener {

@@ -20,6 +20,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view kPrefix = "piece-";
 constexpr const char* kListName = "pieces.txt";
 
+fs::path pieces_folder(const fs::path& work) { return work / "pieces"; }
+
 void add(document::Checksum& sum, const std::string& text) {
   sum.add(std::as_bytes(std::span(text.c_str(), text.size() + 1)));
 }
@@ -34,6 +36,15 @@ bool is_own(const std::string& name) {
   return name.starts_with(kPrefix) || name.starts_with("." + std::string(kPrefix)) || name == kListName;
 }
 
+// Others are pieces of films as they were, of other options, or of a run that was killed while it wrote.
+void remove_all_but(const std::vector<std::string>& names, const fs::path& folder) {
+  std::error_code none;
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
+    const std::string name = entry->path().filename().string();
+    if (is_own(name) && std::ranges::find(names, name) == names.end()) fs::remove(entry->path(), none);
+  }
+}
+
 // Names that are no addresses: # and ? mean nothing there.
 std::string list_word(const fs::path& file) {
   std::string word = "'";
@@ -43,38 +54,28 @@ std::string list_word(const fs::path& file) {
 
 }  // namespace
 
-fs::path pieces_folder(const fs::path& file) { return fs::path(file).concat(".pieces"); }
+void remove_pieces(const fs::path& work) {
+  std::error_code none;
+  remove_all_but({}, pieces_folder(work));
+  fs::remove(pieces_folder(work), none);
+}
 
 Pieces::Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding,
-               const Listener& listener)
-    : source_(source),
-      form_(form),
-      encoding_(std::move(encoding)),
-      file_(order.file),
-      folder_(pieces_folder(order.file)) {
-  enter(listener);
+               const fs::path& work)
+    : source_(source), form_(form), encoding_(std::move(encoding)), file_(order.file), folder_(pieces_folder(work)) {
+  make_folder(folder_);
   for (std::size_t first = 0; first < source.frames.size(); first += order.piece_frames) {
     const Span span{first, std::min(first + order.piece_frames, source.frames.size())};
     pieces_.push_back({span, name_of(span)});
   }
-  remove_all_but_these();
+  std::vector<std::string> names;
+  for (const Piece& piece : pieces_) names.push_back(piece.name);
+  remove_all_but(names, folder_);
 }
 
 Pieces::~Pieces() {
   std::error_code none;
   fs::remove(folder_, none);  // not where it has something
-}
-
-// Whom it waits for removes the folder at its end: then there is another of its name, or none.
-void Pieces::enter(const Listener& listener) {
-  const auto note = [&] {
-    if (!waited_ && listener.note) listener.note(file_.string() + ": another process makes it; waiting for that");
-    waited_ = true;
-  };
-  do {
-    make_folder(folder_);
-    lock_.emplace(folder_ / kListName, note);
-  } while (!lock_->is_of(folder_));
 }
 
 std::string Pieces::name_of(Span span) const {
@@ -122,19 +123,9 @@ fs::path Pieces::list() const {
   return folder_ / kListName;
 }
 
-// Of films as they were, other options, or a run that was killed while it wrote.
-void Pieces::remove_all_but_these() const {
-  std::error_code none;
-  for (fs::directory_iterator entry(folder_, none), end; !none && entry != end; entry.increment(none)) {
-    const std::string name = entry->path().filename().string();
-    if (is_own(name) && std::ranges::find(pieces_, name, &Piece::name) == pieces_.end())
-      fs::remove(entry->path(), none);
-  }
-}
-
 void Pieces::remove() {
   pieces_.clear();
-  remove_all_but_these();
+  remove_all_but({}, folder_);
 }
 
 }  // namespace mars::videos

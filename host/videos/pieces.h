@@ -1,33 +1,29 @@
-// Encoded pieces of a video, files of a folder. A piece's name is a checksum of all that decides its content, so that a
-// piece that is there is the one that would be made.
+// Encoded pieces of a video, files of a folder in the video's working folder. A piece's name is a checksum of all that
+// decides its content, so that a piece that is there is the one that would be made.
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "host/content/document/folder_lock.h"
 #include "host/videos/encoder.h"
 #include "host/videos/order.h"
 
 namespace mars::videos {
 
-// The folder of a video's pieces.
-std::filesystem::path pieces_folder(const std::filesystem::path& file);
+// Removes all pieces that a video's working folder has.
+void remove_pieces(const std::filesystem::path& work);
 
 class Pieces {
  public:
-  // Makes the folder where it is missing, and waits until no other process makes pieces there, which `listener` learns.
-  // `encoding`: the words by which ffmpeg encodes. Throws Failure where it cannot.
+  // Makes the folder where it is missing. `encoding`: the words by which ffmpeg encodes. `work`: the video's working
+  // folder, which the caller alone uses. Throws Failure where it cannot.
   Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding,
-         const Listener& listener);
+         const std::filesystem::path& work);
   Pieces(const Pieces&) = delete;
   Pieces& operator=(const Pieces&) = delete;
   ~Pieces();  // removes the folder where it has nothing
 
-  // For another process, which may have made the video.
-  bool waited() const { return waited_; }
   // Encodes those that are not there. Throws Failure where one cannot be written.
   void encode(const std::string& program, const Listener& listener);
   // A list of them all, as ffmpeg's concat takes it.
@@ -41,18 +37,14 @@ class Pieces {
     std::string name;
   };
 
-  void enter(const Listener& listener);
   std::string name_of(Span span) const;
   void encode(const Piece& piece, const std::string& program, const Listener& listener, std::size_t& done);
-  void remove_all_but_these() const;
 
   const Source& source_;
   const Form form_;
   const std::vector<std::string> encoding_;
   const std::filesystem::path file_;  // the video, for failures
   const std::filesystem::path folder_;
-  std::optional<document::FolderLock> lock_;
-  bool waited_ = false;
   std::vector<Piece> pieces_;
 };
 

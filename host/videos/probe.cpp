@@ -56,6 +56,9 @@ Probed::Video video_of(const json& stream) {
 
 Probed probed(const std::filesystem::path& file, bool counts) {
   if (!document::file_exists(file)) throw NoMedia("is not there", file.string(), "check the name");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error))  // ffprobe would wait for what a pipe may bring
+    throw NoMedia("is not a regular file", file.string(), "name a file on a disk");
   const json all = read(file, counts);
   Probed found;
   for (const json& stream : all.value("streams", json::array())) {

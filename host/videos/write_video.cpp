@@ -92,8 +92,15 @@ class Writing {
   }
 
   void join() const {
-    Pieces pieces(source_, form_, order_, encoding_, listener_);
-    if (pieces.waited() && is_there()) return pieces.remove();
+    if (order_.work != nullptr) return join(order_.work->path());
+    const document::WorkFolder work(order_.file, document::WorkFolder::Use::alone,
+                                    [this] { note(waiting_text(order_)); });
+    if (work.waited() && is_there()) return;
+    join(work.path());
+  }
+
+  void join(const fs::path& work) const {
+    Pieces pieces(source_, form_, order_, encoding_, work);
     pieces.encode(program_, listener_);
     document::fill_whole_file(order_.file, [&](const fs::path& part) {
       Words words{"-v", "error", "-y", "-nostdin", "-f", "concat", "-safe", "0", "-i", file_word(pieces.list())};
@@ -149,14 +156,47 @@ class Writing {
   const Words encoding_;
 };
 
+// GIF and APNG files do not say who made them: a file that begins as one may be ours.
+bool is_of_kind_without_comment(const fs::path& file) {
+  constexpr std::string_view kGif = "GIF8", kPng = "\x89PNG";
+  const std::string start = document::read_start(file, kGif.size());
+  return start == kGif || start == kPng;
+}
+
+bool is_made_by_mars(const Order& order, const Form& form) try {
+  return form.kind->has_audio ? is_mark(comment_of(order.file)) : is_of_kind_without_comment(order.file);
+} catch (const Failure&) {  // it is no video
+  return false;
+}
+
+void refuse_others_file(const Order& order, const Form& form) {
+  std::error_code none;
+  if (order.overwrite || fs::file_size(order.file, none) == 0 || none || is_made_by_mars(order, form)) return;
+  throw Failure("is there already, and MARS has not made it", order.file.string(),
+                "choose another name, or remove it first; mars render also replaces it with --overwrite");
+}
+
+// Pieces are joined by a list of files, in which a line's end ends a name.
+void refuse_line_ends(const fs::path& file, const Form& form) {
+  if (form.codec->cuts && fs::absolute(file).string().find_first_of("\n\r") != std::string::npos)
+    throw Failure("has a line's end in its name or in that of a folder, which ffmpeg cannot read in a list of files",
+                  file.string(), "choose another name, or another folder");
+}
+
 }  // namespace
+
+std::string waiting_text(const Order& order) {
+  return order.file.string() + ": another process makes it; waiting for that";
+}
 
 void check_order(const Order& order, const std::optional<images::PictureSize>& size) {
   const Form form = form_of(order.file, order.form);
+  refuse_line_ends(order.file, form);
   choose_encoder(order.file, size ? encoders_for(form, *size) : form.codec->encoders);
   find_ffmpeg(order.file, "ffprobe");
   if (order.audio) document::refuse_same_file(order.audio->file, order.file);
   document::check_can_write(order.file);
+  refuse_others_file(order, form);
   if (order.audio && form.kind->has_audio) check_audio(*order.audio);
 }
 

@@ -1,5 +1,5 @@
 // Pictures into a video, which appears whole or not at all. Where it is known what decides each picture, they are
-// encoded in pieces, kept in a folder beside the file, FILE.pieces, until the video is there: whoever makes it again,
+// encoded in pieces, kept in the file's working folder until the video is there: whoever makes it again,
 // also of frames of which some have changed, encodes only the pieces that are not there yet. Pieces are then joined
 // without being encoded again.
 #pragma once
@@ -13,9 +13,12 @@
 namespace mars::videos {
 
 // What can be known before there is a picture, of `size` where that is known: throws Failure where the form makes no
-// sense, ffmpeg is missing or lacks the encoder, the file cannot be written, or is the audio's, or the audio has no
-// sound.
+// sense, ffmpeg is missing or lacks the encoder, the file cannot be written, is the audio's, or is there and not made
+// by MARS, or the audio has no sound.
 void check_order(const Order& order, const std::optional<images::PictureSize>& size = std::nullopt);
+
+// The line for who waits for another process that makes the file.
+std::string waiting_text(const Order& order);
 
 // Throws Failure as check_order(), and where ffmpeg fails; then the file is as it was.
 void write_video(const Source& source, const Order& order, const Listener& listener);

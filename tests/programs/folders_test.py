@@ -152,6 +152,31 @@ class Folders(SideBySide, ProgramTest):
             self.assertIn("400 frames, all there and whole", self.succeed("mars", "verify", "out"))
             self.assertOnlyFrames()
 
+    def test_a_film_that_is_spoilt_while_a_run_renders(self):
+        for spoil in [lambda film: film.write_bytes(film.read_bytes()[:100]), lambda film: film.unlink()]:
+            shutil.rmtree(self.out, ignore_errors=True)
+            with self.half_way(400, *self.long_run("0-399")) as (run, _):
+                whole = (self.out / "film.mars").read_bytes()
+                spoil(self.out / "film.mars")
+            printed = run.communicate(timeout=SECONDS)[1]
+            self.assertEqual(run.returncode, 0, printed)
+            self.assertIn("mars: warning: film.mars was lost or damaged: it is written again", printed)
+            self.assertEqual((self.out / "film.mars").read_bytes(), whole)
+
+    def test_files_of_other_programs_stay(self):
+        self.out.mkdir()
+        (self.out / "frame-00003.png").write_text("mine")
+        done = self.render(self.film, "0-9")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("MARS has not made frame-00003.png in this folder", done.stderr)
+        self.assertEqual([path.name for path in self.out.iterdir()], ["frame-00003.png"])
+        self.assertEqual(self.render(self.film, "0-2").returncode, 0, "it is in no frame's way")
+        self.assertEqual((self.out / "frame-00003.png").read_text(), "mine")
+        shutil.rmtree(self.out)
+        self.out.mkdir()
+        (self.out / "frame-00003.png").write_text("mine")
+        self.assertEqual(self.render(self.film, "0-9", "--overwrite").returncode, 0)
+
     def test_frames_that_somebody_removes_while_a_run_renders(self):
         with self.half_way(400, *self.long_run("0-399")) as (run, _):
             min(self.out.glob("*.png")).unlink()

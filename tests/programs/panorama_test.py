@@ -89,7 +89,7 @@ class Panoramas(ProgramTest):
         process = subprocess.Popen([str(PROGRAMS / "mars"), *map(str, words)], cwd=self.folder, env=ENVIRONMENT,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(self.end, process)
-        faces = self.folder / "out.faces"
+        faces = self.folder / "out.mars-work" / "faces"
         wait_until(lambda: process.poll() is not None or len(list(faces.glob("*.exr"))) > 20, SECONDS, "no face")
         process.send_signal(signal.SIGINT)
         process.communicate(timeout=SECONDS)
@@ -100,7 +100,36 @@ class Panoramas(ProgramTest):
         self.assertGreater(len(drawn), 20)
         self.assertIn("frames are there already", self.render(film, "out"))
         self.assertEqual(self.files("out"), self.files("whole"))
-        self.assertFalse(faces.exists())
+        self.assertFalse(faces.parent.exists())
+
+    def test_a_damaged_face_is_drawn_again(self):
+        film = self.write("film.json", a_film())
+        self.render(film, "whole")
+        self.render(film, "out", "--frames", "0-1")
+        work = self.folder / "out.mars-work"
+        work.mkdir()
+        (work / "made-by-mars").touch()
+        self.render(film, "all", "--frames", "2-3")
+        self.render(film, work / "faces", "--faces", "--format", "exr", "--frames", "2-3")
+        face = sorted((work / "faces").glob("*.exr"))[3]
+        face.write_bytes(face.read_bytes()[:200])
+        self.assertIn("1 damaged or missing frame of out.mars-work/faces", self.render(film, "out"))
+        self.assertEqual(self.files("out"), self.files("whole"))
+        self.assertFalse(work.exists())
+
+    def test_faces_that_a_killed_process_left_go(self):
+        """Those of the frames that are there; a folder that somebody rendered on purpose stays."""
+        film = self.write("film.json", a_film())
+        self.render(film, "out.faces", "--faces", "--format", "exr")
+        self.render(film, "out")
+        work = self.folder / "out.mars-work"
+        work.mkdir()
+        (work / "made-by-mars").touch()
+        shutil.copytree(self.folder / "out.faces", work / "faces")
+        (work / "faces" / "frames.json").unlink()
+        self.render(film, "out")
+        self.assertEqual(self.left(), ["film.json", "out", "out.faces"])
+        self.assertEqual(len(self.files("out.faces")), 24)
 
     def test_some_frames_with_names_and_faces_themselves(self):
         film = self.write("film.json", a_film())

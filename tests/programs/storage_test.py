@@ -165,7 +165,7 @@ class Storage(SideBySide, ProgramTest):
             self.inside(f"mount -o remount,size={room}k .")
             self.assertEqual(play(name).returncode, 1, "the piece is there, but no video")
             pieces = len(self.inside("find . -name 'piece-*'").split())
-        self.assertEqual(self.inside("ls -A").split(), [f"{name}.pieces"])
+        self.assertEqual(self.inside("ls -A").split(), [f"{name}.mars-work"])
         self.inside("mount -o remount,size=1M .")
         self.assertIn(f"{FRAMES} frames of {self.disk / name} are encoded already", play(name).stdout)
         self.assertEqual(self.inside("ls -A").split(), [name])

@@ -183,6 +183,17 @@ class Rendered(VideoTest):
         self.render(film, "-o", "out", "-o", "bad.mkv", "--codec", "vp9", "--quality", "63")
         self.assertLess((self.folder / "bad.mkv").stat().st_size, (self.folder / "b.mkv").stat().st_size)
 
+    def test_processors_change_nothing(self):
+        """A piece that was made elsewhere is the one that would be made."""
+        processors = os.sched_getaffinity(0)
+        self.addCleanup(os.sched_setaffinity, 0, processors)
+        self.render(self.write("film.json", a_film(24)), "-o", "out")
+        for codec in "h264", "h265", "vp9", "av1", "prores", "ffv1":
+            for name, some in [("one", {min(processors)}), ("all", processors)]:
+                os.sched_setaffinity(0, some)
+                self.succeed("mars", "play", "out", "-o", f"{name}-{codec}.mkv", "--codec", codec)
+            self.assertEqual(*((self.folder / f"{name}-{codec}.mkv").read_bytes() for name in ["one", "all"]), codec)
+
     def test_sound(self):
         with wave.open(str(self.folder / "tone.wav"), "wb") as tone:
             tone.setparams((1, 2, 8000, 0, "NONE", ""))
@@ -209,7 +220,7 @@ class Rendered(VideoTest):
         self.fail_clearly(1, "render", film, "-o", "film.mp4", *SMALL, says="is the file that is read")
         self.assertEqual((self.folder / "film.mp4").read_bytes(), before)
         self.write("film.json", a_film(24, audio="none.wav"))
-        self.fail_clearly(1, "render", film, "-o", "b.mp4", *SMALL, says="none.wav: is not there")
+        self.fail_clearly(1, "render", film, "-o", "b.mp4", *SMALL, says="none.wav', which does not exist")
 
     def test_played_frames(self):
         film = self.write("film.json", dict(a_film(4), color="linear"))
@@ -249,8 +260,8 @@ class GoingOn(VideoTest):
         killed = self.with_ffmpeg('case "$*" in *rawvideo*) if mkdir once 2>/dev/null; then exec $FFMPEG "$@"; fi; '
                                   'head -c 3000 >/dev/null; kill -9 $$;; *) exec $FFMPEG "$@";; esac')
         self.fail_clearly(1, "render", film, "-o", "film.mp4", *SMALL, says="ffmpeg was killed by signal 9", env=killed)
-        self.assertEqual([name for name in self.left() if "film" in name], ["film.json", "film.mp4.frames", "film.mp4.pieces"])
-        pieces = list((self.folder / "film.mp4.pieces").iterdir())
+        self.assertEqual([name for name in self.left() if "film" in name], ["film.json", "film.mp4.mars-work"])
+        pieces = list((self.folder / "film.mp4.mars-work" / "pieces").iterdir())
         self.assertEqual(len(pieces), 1, pieces)
         printed = self.render(film, "-o", "film.mp4")
         self.assertIn("500 of 500 frames are there already", printed)
@@ -267,17 +278,75 @@ class GoingOn(VideoTest):
         slow = self.with_ffmpeg('case "$*" in *rawvideo*) sleep 0.5; exec $FFMPEG "$@";; *) exec $FFMPEG "$@";; esac')
         play = [PROGRAMS / "mars", "play", "out", "-o", "film.mp4"]
         first = subprocess.Popen(play, cwd=self.folder, env=slow)
-        harness.wait_until(lambda: (self.folder / "film.mp4.pieces").exists(), SECONDS, "no pieces")
+        harness.wait_until(lambda: (self.folder / "film.mp4.mars-work" / "pieces").exists(), SECONDS, "no pieces")
         second = subprocess.run(play, cwd=self.folder, env=ENVIRONMENT, capture_output=True, text=True, timeout=SECONDS)
         self.assertEqual((first.wait(SECONDS), second.returncode), (0, 0), second.stderr)
         self.assertIn("film.mp4: another process makes it", second.stdout + second.stderr)
         self.assertEqual(self.probe("film.mp4")["nb_read_frames"], "3")
 
     @needs_ffmpeg
+    def test_two_renderings_of_the_same_name(self):
+        """The second waits while the first still draws, and finds the video."""
+        film = self.write("film.json", harness.spinning_teapot(60, [160, 90]))
+        words = [PROGRAMS / "mars", "render", film, "-o", "film.mp4", "--backend", "threads", "--nodes", "1"]
+        first = subprocess.Popen(words, cwd=self.folder, env=ENVIRONMENT, stdout=subprocess.DEVNULL)
+        frames = self.folder / "film.mp4.mars-work" / "frames"
+        harness.wait_until(lambda: (frames / "frame-0000.png").exists(), SECONDS, "no frame")
+        second = subprocess.run(words, cwd=self.folder, env=ENVIRONMENT, capture_output=True, text=True, timeout=SECONDS)
+        self.assertEqual((first.wait(SECONDS), second.returncode), (0, 0), second.stderr)
+        self.assertIn("film.mp4: another process makes it", second.stdout + second.stderr)
+        self.assertIn("film.mp4 is there already", second.stdout + second.stderr)
+        self.assertEqual(self.left(), ["film.json", "film.mp4"])
+
+    @needs_ffmpeg
+    def test_a_damaged_frame_of_a_working_folder_is_drawn_again(self):
+        film = self.write("film.json", a_film(6))
+        self.render(film, "-o", "whole.mp4")
+        failing = self.with_ffmpeg('case "$*" in *rawvideo*) exit 3;; *) exec $FFMPEG "$@";; esac')
+        self.assertEqual(self.mars("render", film, "-o", "film.mp4", *SMALL, env=failing).returncode, 1)
+        frames = self.folder / "film.mp4.mars-work" / "frames"
+        (frames / "frame-0002.png").write_bytes((frames / "frame-0002.png").read_bytes()[:60])
+        self.assertIn("1 damaged or missing frame of film.mp4.mars-work/frames", self.render(film, "-o", "film.mp4"))
+        self.assertEqual((self.folder / "film.mp4").read_bytes(), (self.folder / "whole.mp4").read_bytes())
+
+    @needs_ffmpeg
+    def test_what_a_killed_process_left_goes(self):
+        """mars was killed when the video had its name, and some of the working folder was still there."""
+        film = self.write("film.json", a_film(3))
+        for words in [["-o", "film.mp4"], ["-o", "out", "-o", "film.mp4"], ["-o", "film.gif"]]:
+            self.render(film, *words)
+            work = self.folder / (words[-1] + ".mars-work")
+            (work / "pieces").mkdir(parents=True)
+            (work / "frames").mkdir()
+            (work / "made-by-mars").touch()
+            (work / "pieces" / "piece-0123.mp4").write_text("left")
+            (work / "frames" / "frame-0001.png").write_text("left")
+            self.render(film, *words, *(["--overwrite"] if words[-1] == "film.gif" else []))
+            self.assertFalse(work.exists(), words)
+
+    @needs_ffmpeg
+    def test_what_mars_has_not_made_stays(self):
+        film = self.write("film.json", a_film(3))
+        (self.folder / "film.mp4").write_text("mine")
+        for words in [["render", film, *SMALL], ["preview", film]]:
+            self.fail_clearly(1, *words, "-o", "film.mp4", says="is there already, and MARS has not made it")
+        (self.folder / "film.gif").write_text("mine")
+        self.fail_clearly(1, "render", film, "-o", "film.gif", *SMALL, says="is there already, and MARS has not made it")
+        self.assertEqual(self.left(), ["film.gif", "film.json", "film.mp4"], "nothing was rendered")
+        self.render(film, "-o", "film.mp4", "--overwrite")
+        self.render(film, "-o", "film.mp4", "--size", "40x20")
+        (self.folder / "own.mp4.mars-work").mkdir()
+        (self.folder / "own.mp4.mars-work" / "mine").touch()
+        self.fail_clearly(1, "render", film, "-o", "own.mp4", *SMALL, says="MARS has not made this one")
+        self.render(film, "-o", "x.mp4.frames")
+        self.render(film, "-o", "x.mp4")
+        self.assertTrue((self.folder / "x.mp4.frames" / "frame-0002.png").exists())
+
+    @needs_ffmpeg
     def test_a_killed_rendering_goes_on(self):
         film = self.write("film.json", harness.spinning_teapot(3000, [160, 90]))
         process = subprocess.Popen([PROGRAMS / "mars", "render", film, "-o", "film.mp4", *SMALL, "--nodes", "1"], cwd=self.folder)
-        frames = self.folder / "film.mp4.frames"
+        frames = self.folder / "film.mp4.mars-work" / "frames"
         harness.wait_until(lambda: len(list(frames.glob("frame-*.png"))) > 5, SECONDS, "no frames")
         process.send_signal(signal.SIGTERM)
         process.wait(SECONDS)
@@ -320,7 +389,7 @@ class GoingOn(VideoTest):
                              ('case "$*" in *concat*) kill -9 $$;; *) exec $FFMPEG "$@";; esac', "signal 9"),
                              ("echo none", "no encoder libx264")]:
             with self.subTest(says):
-                done = self.mars("render", film, "-o", "film.mp4", *SMALL, env=self.with_ffmpeg(script))
+                done = self.mars("render", film, "-o", "film.mp4", "--overwrite", *SMALL, env=self.with_ffmpeg(script))
                 self.assertEqual(done.returncode, 1, done.stdout)
                 self.assertClear(done.stderr, says)
                 self.assertEqual((self.folder / "film.mp4").read_text(), "kept")
@@ -334,7 +403,35 @@ class GoingOn(VideoTest):
                             (["-o", "a.mp4", "--quality", "60"], "from 1, the best, to 51"), (["-o", "a.mp4", "--sink", "none"], "needs frames"),
                             (["-o", "a.mp4", "-o", "a.mp4"], "twice"), (["-o", "a", "-o", "b"], "one folder"), (["-o", "a.avi"], "videos are .mp4")]:
             self.fail_clearly(2, "render", film, *words, says=says)
+        self.fail_clearly(2, "render", film, "-o", "a", "--codec", "h264", says="there is no video that --codec")
+        self.fail_clearly(2, "render", film, "-o", "a.mp4", "--report", "a.mp4", says="a.mp4: is named for two things")
+        self.fail_clearly(2, "play", "a", "--columns", "3", says="--columns is for a file that is written")
+        self.fail_clearly(2, "play", "a", "-o", "a.png", "--codec", "h264", says="--codec is for videos")
+        self.fail_clearly(2, "play", "a", "-o", "a.mp4", "--columns", "3", says="--columns is for contact sheets")
         self.assertEqual(self.left(), ["film.json"])
+
+    @needs_ffmpeg
+    def test_a_line_end_in_a_name_is_refused_before_frames_are_rendered(self):
+        film = self.write("film.json", a_film(3))
+        self.fail_clearly(1, "render", film, "-o", "a\nb.mp4", *SMALL, says="has a line's end in its name")
+        self.assertEqual(self.left(), ["film.json"])
+
+    @needs_ffmpeg
+    def test_sounds_and_videos_are_regular_files(self):
+        """Nobody writes into these pipes: whoever opened them would wait for ever."""
+        os.mkfifo(self.folder / "pipe.wav")
+        os.mkfifo(self.folder / "pipe.mp4")
+        (self.folder / "folder.wav").mkdir()
+        for name, says in [("pipe.wav", "pipe.wav', which is not a regular file"), ("folder.wav", "is not a regular file"),
+                           ("none.wav", "none.wav', which does not exist")]:
+            film = self.write("film.json", a_film(3, audio=name))
+            for words in [["render", film, "-o", "out", *SMALL], ["render", film, "-o", "film.mp4", *SMALL],
+                          ["compile", film, "-o", "film.mars"]]:
+                self.fail_clearly(1, *words, says=says)
+        self.fail_clearly(1, "verify", "pipe.mp4", says="pipe.mp4: is not a regular file")
+        film = self.write("film.json", a_film(3))
+        self.render(film, "-o", "out")
+        self.fail_clearly(1, "play", "out", "-o", "film.mp4", "--audio", "pipe.wav", says="pipe.wav: is not a regular file")
 
 
 if __name__ == "__main__":

@@ -6,8 +6,7 @@
 
 namespace mars::document {
 
-// As write_whole_file(): `fill` is given the temporary file, which is there and empty. Removes those that killed
-// processes have left beside `path`: whoever fills one holds a lock on it, where the file system can lock.
+// As write_whole_file(): `fill` is given the temporary file, which is there and empty.
 void fill_whole_file(const std::filesystem::path& path,
                      const std::function<void(const std::filesystem::path& part)>& fill);
 

@@ -3,20 +3,16 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 
 namespace mars::document {
 
 class FolderLock {
  public:
-  // Of the folder that the file is in. Waits; `waits` is called before that.
-  explicit FolderLock(const std::filesystem::path& file, const std::function<void()>& waits = {});
+  // Waits for the lock of the folder in which the file is.
+  explicit FolderLock(const std::filesystem::path& file);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
-
-  // Whether it is the folder of this name now, which others may have removed meanwhile.
-  bool is_of(const std::filesystem::path& folder) const;
 
  private:
   int folder_;

@@ -45,8 +45,13 @@ class Descriptor {
     }
   }
 
-  // Until it is closed, where the file system can lock.
-  void lock() { flock(number_, LOCK_EX | LOCK_NB); }
+  // Until it is closed, where the file system can lock. False where another process has the lock, or has removed the
+  // file.
+  bool lock() {
+    if (flock(number_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return false;
+    struct stat found {};
+    return fstat(number_, &found) != 0 || found.st_nlink > 0;
+  }
 
   // What a machine that loses its power then finds under the file's name is whole. Some file systems have no such call.
   void sync() {
@@ -119,7 +124,7 @@ class Part {
 
   const std::filesystem::path& path() const { return path_; }
 
-  void lock() { file_.lock(); }
+  bool lock() { return file_.lock(); }
 
   void write(std::string_view text) { file_.write_all(std::as_bytes(std::span(text.data(), text.size()))); }
 
@@ -210,6 +215,18 @@ void remove_left_parts(const std::filesystem::path& path) {
   for (const std::filesystem::path& part : parts) remove_if_left(part);
 }
 
+// Another process that removes what is left may see the new part before it is locked: then it takes another.
+void write_locked_part(const std::filesystem::path& path, const std::function<void(Part&)>& fill) {
+  remove_left_parts(file_meant_by(path));
+  std::optional<Part> part;
+  do {
+    const std::filesystem::path meant = file_meant_by(path);
+    part.emplace(path, meant, part_beside(meant));
+  } while (!part->lock());
+  fill(*part);
+  part->rename_to_target();
+}
+
 void write_and_rename(const std::filesystem::path& path, const std::filesystem::path& part,
                       const std::function<void(const Write&)>& produce) {
   Part file(path, path, part);
@@ -228,18 +245,12 @@ void write_whole_file(const std::filesystem::path& path, std::string_view text) 
 }
 
 void write_whole_file(const std::filesystem::path& path, const std::function<void(const Write&)>& produce) {
-  Part part = part_of(path);
-  produce([&part](std::string_view piece) { part.write(piece); });
-  part.rename_to_target();
+  write_locked_part(path, [&produce](Part& part) { produce([&part](std::string_view piece) { part.write(piece); }); });
 }
 
 void fill_whole_file(const std::filesystem::path& path,
                      const std::function<void(const std::filesystem::path& part)>& fill) {
-  remove_left_parts(file_meant_by(path));
-  Part part = part_of(path);
-  part.lock();
-  fill(part.path());
-  part.rename_to_target();
+  write_locked_part(path, [&fill](const Part& part) { fill(part.path()); });
 }
 
 void replace_file(const std::filesystem::path& path, const std::filesystem::path& part,

@@ -19,7 +19,8 @@ inline constexpr std::string_view kPartSuffix = ".part";
 
 // For files that a person names: where `path` is a link, the file it leads to is replaced, in its own folder. Refused
 // are links that lead nowhere, links of other users, and links to their files. The temporary file is beside the one
-// that is replaced, named .NAME.<16 random digits>.part.
+// that is replaced, named .NAME.<16 random digits>.part, and locked where the file system can lock: those that killed
+// processes have left are removed.
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 void write_whole_file(const std::filesystem::path& path, std::string_view text);
 // What `produce` writes, piece by piece.

@@ -55,15 +55,19 @@ class Work {
   std::vector<Face> faces_of(std::uint32_t frame) const {
     const wire::FilmSettings& settings = joining_.panorama.settings();
     std::vector<Face> faces;
-    for (const std::uint32_t number : film::face_frames({frame}, settings.frames)) {
-      const std::filesystem::path file = joining_.faces / sinks::frame_file_name(manifest_, number);
-      const images::Image picture = images::read_picture(manifest_.format, file);
-      const std::uint32_t side = film::face_side(settings.width);
-      if (picture.width != side || picture.height != side)
-        throw Failure("has another size than a face of this panorama", file.string(), "remove it, and render again");
-      faces.emplace_back(picture);
-    }
+    for (const std::uint32_t number : film::face_frames({frame}, settings.frames))
+      faces.emplace_back(picture_of(joining_.faces / sinks::frame_file_name(manifest_, number)));
     return faces;
+  }
+
+  images::Image picture_of(const std::filesystem::path& face) const try {
+    images::Image picture = images::read_picture(manifest_.format, face);
+    const std::uint32_t side = film::face_side(joining_.panorama.settings().width);
+    if (picture.width != side || picture.height != side)
+      throw Failure("has another size than a face of this panorama", face.string(), "remove it, and render again");
+    return picture;
+  } catch (const Failure& failure) {
+    throw sinks::DamagedFrame(failure.problem, failure.where, failure.remedy);
   }
 
   const Joining& joining_;

@@ -21,8 +21,8 @@ struct Joining {
   std::uint64_t memory = 0;  // bytes that it may take, but for what one frame takes
 };
 
-// `joined` is called with the number of frames that are done, from several threads, one at a time. Throws Failure where
-// a face is missing or torn, or a frame cannot be written.
+// `joined` is called with the number of frames that are done, from several threads, one at a time. Throws
+// sinks::DamagedFrame where a face is missing or torn, and Failure where a frame cannot be written.
 void join_frames(const Joining& joining, const std::function<void(std::size_t done)>& joined);
 
 }  // namespace mars::panorama

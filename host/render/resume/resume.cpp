@@ -152,6 +152,13 @@ Failure unlisted_frames(const Wish& wish) {
       wish.folder, "give another folder with -o, or replace them with --overwrite");
 }
 
+Failure others_files(const std::vector<std::string>& names, const Wish& wish) {
+  return Failure("MARS has not made " + document::shell_word(names.front()) +
+                     (names.size() > 1 ? " and " + document::counted(names.size() - 1, "other file") : "") +
+                     " in this folder, which frames would replace",
+                 wish.folder, "give another folder with -o, or replace them with --overwrite");
+}
+
 // A folder that is entered twice may fail in the same way twice.
 std::function<void(const std::string&)> warning_once(const std::function<void(const std::string&)>& warn) {
   return [warn, last = std::make_shared<std::string>()](const std::string& line) {
@@ -291,7 +298,11 @@ class Opening {
     all.pixel_hashes.assign(all.frames.size(), "");
     if (there) keep_frames(*there, all);
     std::optional<Failure> refusal = refusal_;
-    if (!there && !wish_.overwrite && sinks::add_marked_frames(wish_.folder, all)) refusal = unlisted_frames(wish_);
+    if (!there && !wish_.overwrite) {
+      if (sinks::add_marked_frames(wish_.folder, all)) refusal = unlisted_frames(wish_);
+      const auto others = sinks::others_files(wish_.folder, wanted);
+      if (!others.empty() && !sinks::has_frames(wish_.folder)) refusal = others_files(others, wish_);
+    }
     return {std::move(all), kept_ ? nullptr : &film(), std::move(refusal), wish_.renders};
   }
 

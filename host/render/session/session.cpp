@@ -346,7 +346,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
     sinks::Patience(bounds_of(reporter)).write(file, whole);
   };
   heartbeats.during("ending", [&] {
-    if (output.folder) output.folder->finish();
+    if (output.folder) output.folder->finish(&film);
     if (!job.report.empty()) write(job.report, [&] { write_report(job, film, memory, report); });
     if (trace) write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
   });

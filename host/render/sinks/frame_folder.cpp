@@ -4,6 +4,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -251,10 +252,10 @@ FrameFolder::~FrameFolder() {
   }
 }
 
-void FrameFolder::finish() {
+void FrameFolder::finish(const film::CompiledFilm* film) {
   if (std::exchange(finished_, true)) return;
   try {
-    patience_.write(path_ / kManifestName, [this] { finish_within(FolderTurn::kPatience); });
+    patience_.write(path_ / kManifestName, [&] { finish_within(FolderTurn::kPatience, film); });
   } catch (const Failure&) {
     refuse_gone(path_);
     throw;
@@ -262,7 +263,7 @@ void FrameFolder::finish() {
   refuse_lost_frames();
 }
 
-void FrameFolder::finish_within(std::chrono::milliseconds patience) {
+void FrameFolder::finish_within(std::chrono::milliseconds patience, const film::CompiledFilm* film) {
   const FolderTurn turn(runs_, patience, [this] { patience_.note_answer(); });
   lease_->confirm();
   hashes_.reset();
@@ -270,6 +271,10 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience) {
   if (!add_to_manifest(rendered_, known(), path_, runs_, turn, warn_))
     throw Failure("is no longer the manifest of the film that was rendered", (path_ / kManifestName).string(),
                   "see that nothing else writes it, and render the film again");
+  if (film != nullptr && !film::is_saved(*film, path_ / kFilmName)) {
+    write_film(*film, turn);
+    if (warn_) warn_(std::string(kFilmName) + " was lost or damaged: it is written again");
+  }
   for (const RunFiles& run : runs_.runs())
     if (run.run == runs_.own_name()) remove_files(run, turn);
   lease_.reset();
@@ -386,6 +391,12 @@ bool remove_folder(const fs::path& folder) {
     const bool own = is_own_name(name) || (manifest && frame_of_file(*manifest, name));
     if (!own || name == kRunsName) return false;
   }
+  // Frames first, then the manifest, which names them, then the film: where this process is killed meanwhile, the next
+  // one finds a folder with which it can go on, also with another film.
+  const auto place = [](const fs::path& file) {
+    return file.filename() == kFilmName ? 2 : file.filename() == kManifestName ? 1 : 0;
+  };
+  std::ranges::stable_sort(files, {}, place);
   for (const fs::path& file : files) fs::remove(file, none);
   return fs::remove(folder, none);
 }

@@ -60,6 +60,12 @@ class LostFrames : public Failure {
   std::uint32_t frames;
 };
 
+// A frame's file is missing or torn, where it is needed.
+class DamagedFrame : public Failure {
+ public:
+  using Failure::Failure;
+};
+
 class FrameFolder {
  public:
   // Creates the folder where it is missing, adds to its manifest what ended runs have rendered and clears away what
@@ -106,9 +112,9 @@ class FrameFolder {
   // Throws Failure where the folder or the claim is gone: then nodes cannot write either.
   void confirm_claim();
 
-  // Writes the frames' hashes to the manifest and gives up the claim. Throws Failure where it cannot, and then leaves
-  // its files in .runs.
-  void finish();
+  // Writes the frames' hashes to the manifest and gives up the claim; also film.mars where that is not `film`, the one
+  // that was rendered, any more. Throws Failure where it cannot, and then leaves its files in .runs.
+  void finish(const film::CompiledFilm* film = nullptr);
 
   // As Patience says.
   void check() { patience_.check(); }
@@ -122,7 +128,7 @@ class FrameFolder {
   void claim();
   void give_back_claim();
   void remove_frames(const std::vector<std::uint32_t>& frames) const;
-  void finish_within(std::chrono::milliseconds patience);
+  void finish_within(std::chrono::milliseconds patience, const film::CompiledFilm* film = nullptr);
   void refuse_lost_frames() const;
   void record(std::uint32_t frame, const std::string& pixel_hash);
   Manifest known() const;

@@ -232,6 +232,18 @@ std::string repair_remedy(const fs::path& folder) {
   return "mars verify --repair " + document::shell_word(folder.string()) + " makes it again";
 }
 
+std::vector<std::string> others_files(const fs::path& folder, const Manifest& manifest) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
+    std::string name = entry->path().filename().string();
+    if (frame_of_file(manifest, name) && is_frame_file(entry->path()) && !read_mark(entry->path()))
+      names.push_back(std::move(name));
+  }
+  std::ranges::sort(names);
+  return names;
+}
+
 bool add_marked_frames(const fs::path& folder, Manifest& manifest) {
   const Files files = files_in(folder);
   bool some_of_it = false;

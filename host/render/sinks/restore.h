@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/render/sinks/manifest.h"
@@ -53,6 +54,9 @@ Found find_manifest(const std::filesystem::path& folder, const Manifest* known =
 // What was done about a manifest's problem, for people; and what they can do.
 std::string repair_text(const std::string& problem);
 std::string repair_remedy(const std::filesystem::path& folder);
+
+// Names of files that frames of `manifest` would replace, and that do not say that MARS has made them; ascending.
+std::vector<std::string> others_files(const std::filesystem::path& folder, const Manifest& manifest);
 
 // Adds hashes, to frames of `manifest` that have none, of those whose files say that they are of its very film. Returns
 // whether there are frames that say that they are of other films, and none of this one.

@@ -13,7 +13,7 @@ std::optional<videos::Audio> audio_of_film(const std::filesystem::path& film) {
   const document::Fields fields(document.root(), keys::object("film"));
   const auto audio = fields.find("audio");
   if (!audio) return std::nullopt;
-  return videos::Audio{film.parent_path() / document::read_text(*audio), fields.number("audio_delay")};
+  return videos::Audio{document::read_file_name(*audio), fields.number("audio_delay")};
 }
 
 std::optional<videos::Audio> audio_of_folder(const sinks::Manifest& manifest) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <system_error>
 
 #include "hal/failure/failure.h"
@@ -53,14 +54,7 @@ std::string kept_film(const options::RenderOptions& options) {
   return (fs::path(options.folder) / sinks::kFilmName).string();
 }
 
-// Beside the folder of frames; within it where that has no name.
-std::string faces_folder(const options::RenderOptions& options) {
-  constexpr const char* kEnding = ".faces";
-  fs::path folder = fs::path(options.folder).lexically_normal();
-  if (!folder.has_filename()) folder = folder.parent_path();
-  if (folder.empty() || folder.filename() == "." || folder.filename() == "..") return (folder / kEnding).string();
-  return folder.string() + kEnding;
-}
+fs::path faces_in(const fs::path& work) { return work / "faces"; }
 
 // Pictures are joined of light alone, and whole.
 void refuse_parts(const options::RenderOptions& options) {
@@ -97,8 +91,29 @@ options::RenderOptions faces_of(options::RenderOptions options) {
   return options;
 }
 
+void remove_left_faces(const fs::path& frames) try {
+  if (!document::has_work_folder(frames)) return;
+  const document::WorkFolder work(frames, document::WorkFolder::Use::shared);
+  const fs::path faces = faces_in(work.path());
+  const sinks::Manifest joined = sinks::read_manifest(frames);
+  const std::vector<std::uint32_t> missing = sinks::missing_frames(frames, joined, joined.frames);
+  std::vector<std::uint32_t> there;
+  std::ranges::set_difference(joined.frames, missing, std::back_inserter(there));
+  std::error_code none;
+  if (const auto drawn = sinks::read_frames_json(faces)) {
+    for (const std::uint32_t face : film::face_frames(there, joined.film_frames))
+      fs::remove(faces / sinks::frame_file_name(*drawn, face), none);
+    if (sinks::has_frames(faces)) return;
+  }
+  sinks::remove_folder(faces);
+} catch (const Failure&) {  // the frames are there: what stays, another command removes
+}
+
 FilmPanorama::FilmPanorama(const options::RenderOptions& options, Display& display)
-    : options_(options), display_(display), opened_(open_folder_of(options)) {
+    : options_(options),
+      display_(display),
+      opened_(open_folder_of(options)),
+      work_(options.folder, document::WorkFolder::Use::shared) {
   const auto left = static_cast<std::uint32_t>(opened_.frames.size());
   if (left < opened_.asked || !opened_.changed.empty())
     display_.print(resumed_text({opened_.asked - left, opened_.asked, opened_.changed}));
@@ -110,7 +125,7 @@ options::RenderOptions FilmPanorama::faces() const {
   faces.frames = film::FrameSet(opened_.frames);
   faces = job::faces_of(faces, opened_.film.view().settings().frames);
   faces.film = kept_film(options_);
-  faces.folder = faces_folder(options_);
+  faces.folder = faces_in(work_.path()).string();
   faces.size = {};
   faces.samples = {};
   faces.eye = film::Eye::middle;
@@ -124,26 +139,16 @@ void FilmPanorama::join() {
   const session::HostMachine machine = session::host_machine({});
   const wire::PackedFilm film = opened_.film.view();
   const std::size_t count = opened_.frames.size();
-  panorama::join_frames({film, faces_folder(options_), *opened_.folder, opened_.frames,
+  panorama::join_frames({film, faces_in(work_.path()), *opened_.folder, opened_.frames,
                          static_cast<std::uint32_t>(machine.processors), machine.memory},
                         [&](std::size_t done) {
                           display_.show("joined frame " + std::to_string(done) + " of " + std::to_string(count));
                         });
-  opened_.folder->finish();
+  opened_.folder->finish(&opened_.film);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
   display_.print(document::counted(count, "frame") + " joined in " + options_.folder + ", " +
                  document::formatted("%.1f", seconds.count()) + " seconds");
-  remove_faces();
-}
-
-// Of its own frames alone: other runs may draw those of others.
-void FilmPanorama::remove_faces() const {
-  const fs::path folder = faces_folder(options_);
-  const sinks::Manifest manifest = sinks::read_manifest(folder);
-  std::error_code none;
-  for (const std::uint32_t face : film::face_frames(opened_.frames, opened_.film.view().settings().frames))
-    fs::remove(folder / sinks::frame_file_name(manifest, face), none);
-  if (!sinks::has_frames(folder)) sinks::remove_folder(folder);
+  remove_left_faces(options_.folder);
 }
 
 }  // namespace mars::launch

@@ -13,8 +13,10 @@
 #include "host/render/sinks/frame_folder.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/launch/film_audio.h"
+#include "host/shell/launch/film_panorama.h"
 #include "host/videos/folder_source.h"
 #include "host/videos/mark.h"
+#include "host/videos/pieces.h"
 #include "host/videos/probe.h"
 
 namespace mars::launch {
@@ -31,6 +33,13 @@ std::string bytes_text(std::uintmax_t bytes) {
   constexpr double kMegabyte = 1e6;
   return bytes < kMegabyte ? document::formatted("%.0f kB", static_cast<double>(bytes) / 1e3)
                            : document::formatted("%.1f MB", static_cast<double>(bytes) / kMegabyte);
+}
+
+// The same for all names of one file in one folder.
+fs::path place_of(const std::string& file) {
+  const fs::path path = fs::absolute(file).lexically_normal();
+  std::error_code none;
+  return fs::weakly_canonical(path.parent_path(), none) / path.filename();
 }
 
 // How far apart they are, where that is the same for all; else 1.
@@ -50,9 +59,20 @@ FilmVideos::FilmVideos(const options::RenderOptions& options, Display& display) 
     document::refuse_same_file(options.film, file);
     videos::check_order(order_of(file), options.size);
   }
+  // All processes enter them in the order of their places: no two wait for one another.
+  std::map<fs::path, std::string> files;
+  for (const std::string& file : options.videos) files.emplace(place_of(file), file);
+  for (const auto& [place, file] : files)
+    work_.try_emplace(place, file, document::WorkFolder::Use::alone,
+                      [&] { display_.print(videos::waiting_text(order_of(file))); });
 }
 
-videos::Order FilmVideos::order_of(const std::string& file) const { return {file, options_.video_form, audio_}; }
+videos::Order FilmVideos::order_of(const std::string& file) const {
+  videos::Order order{file, options_.video_form, audio_};
+  order.overwrite = options_.overwrite;
+  if (const auto work = work_.find(place_of(file)); work != work_.end()) order.work = &work->second;
+  return order;
+}
 
 // Of all that decides its content, but for the version of ffmpeg.
 std::string FilmVideos::recipe_of(const std::string& file, const std::string& film, std::uint32_t film_frames) const {
@@ -80,9 +100,9 @@ bool FilmVideos::is_there(const std::string& file, const std::string& film, std:
   return mark && mark->recipe == recipe_of(file, film, film_frames);
 }
 
-bool FilmVideos::are_there() const {
-  if (!options_.own_folder || options_.overwrite || options::measures(options_) || fs::exists(options_.folder))
-    return false;
+bool FilmVideos::are_there() {
+  if (!options_.own_folder || options_.overwrite || options::measures(options_)) return false;
+  if (options_.kept_film && fs::exists(options_.folder)) return false;
   for (const std::string& file : options_.videos)
     if (!document::file_exists(file) || !videos::mark_of(videos::comment_of(file))) return false;
   const film::CompiledFilm film = job::load_film_of(options_, [](const std::string&) {});
@@ -90,12 +110,13 @@ bool FilmVideos::are_there() const {
   for (const std::string& file : options_.videos)
     if (!is_there(file, checksum, film.view().settings().frames)) return false;
   for (const std::string& file : options_.videos) display_.print(file + " is there already");
+  empty_work_folders();
   return true;
 }
 
 void FilmVideos::make() {
   for (const std::string& file : options_.videos) make(file);
-  if (options_.own_folder) remove_frames();
+  empty_work_folders();
 }
 
 void FilmVideos::make(const std::string& file) {
@@ -117,9 +138,14 @@ void FilmVideos::make(const std::string& file) {
                  bytes_text(fs::file_size(file)) + ", " + document::formatted("%.1f", seconds.count()) + " seconds");
 }
 
-void FilmVideos::remove_frames() {
-  if (!sinks::remove_folder(options_.folder) && fs::exists(options_.folder))
-    display_.print("the frames stay in " + options_.folder);
+// Also of frames and pieces that processes that were killed have left, of whatever film: the videos are there.
+void FilmVideos::empty_work_folders() {
+  for (const auto& [place, work] : work_) {
+    const fs::path frames = options::frames_in(work.path());
+    remove_left_faces(frames);
+    if (!sinks::remove_folder(frames) && fs::exists(frames)) display_.print("the frames stay in " + frames.string());
+    videos::remove_pieces(work.path());
+  }
 }
 
 }  // namespace mars::launch

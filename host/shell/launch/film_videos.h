@@ -3,11 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host/content/document/work_folder.h"
 #include "host/shell/launch/display.h"
 #include "host/shell/options/render_options.h"
 #include "host/videos/write_video.h"
@@ -16,12 +19,13 @@ namespace mars::launch {
 
 class FilmVideos {
  public:
-  // Throws Failure, before anything is started, where one of them cannot be made (videos::check_order), or is the film.
-  // Both must outlive it.
+  // Waits until no other process makes one of them. Throws Failure, before anything is started, where one of them
+  // cannot be made (videos::check_order), or is the film. Both must outlive it.
   FilmVideos(const options::RenderOptions& options, Display& display);
 
-  // Whether all are there, of this film, whose frames are nowhere else. May compile the film.
-  bool are_there() const;
+  // Whether all are there, of this film, whose frames nobody asks for; then what processes that were killed have left
+  // in their working folders is removed. May compile the film.
+  bool are_there();
   // Of the folder's frames; those that are there already are left alone. Throws Failure where a frame is missing or a
   // video cannot be made; then the same command goes on.
   void make();
@@ -31,11 +35,12 @@ class FilmVideos {
   std::string recipe_of(const std::string& file, const std::string& film, std::uint32_t film_frames) const;
   bool is_there(const std::string& file, const std::string& film, std::uint32_t film_frames) const;
   void make(const std::string& file);
-  void remove_frames();
+  void empty_work_folders();
 
   const options::RenderOptions& options_;
   Display& display_;
   std::optional<videos::Audio> audio_;
+  std::map<std::filesystem::path, document::WorkFolder> work_;  // of each video, by its place
 };
 
 }  // namespace mars::launch

@@ -17,6 +17,7 @@
 #include "host/render/events/events.h"
 #include "host/render/resume/resume.h"
 #include "host/render/sinks/frame_folder.h"
+#include "host/render/sinks/verify.h"
 #include "host/content/document/text.h"
 #include "host/shell/launch/background_text.h"
 #include "host/shell/launch/between_jobs.h"
@@ -202,15 +203,57 @@ void render(options::RenderOptions options, const std::filesystem::path& self, c
   if (supervisor.rendered()) display.print(account_of(supervisor, options.folder, seconds_since(started)));
 }
 
+// What a process that was killed has torn in a working folder is drawn again: nobody could repair it. False where all
+// frames there are whole.
+bool remove_damaged_frames(const std::string& folder, Display& display) {
+  const sinks::Verdict verdict = sinks::verify_folder(folder);
+  if (verdict.troubles.empty()) return false;
+  sinks::remove_wrong_files(folder, verdict);
+  display.print(document::counted(verdict.troubles.size(), "damaged or missing frame") + " of " + folder +
+                ": drawn again");
+  return true;
+}
+
+// `draw` puts frames into a working folder, `use` makes something of them.
+void draw_and_use(options::RenderOptions drawn, const std::function<void(const options::RenderOptions&)>& draw,
+                  const std::function<void()>& use, Display& display) {
+  draw(drawn);
+  try {
+    return use();
+  } catch (const sinks::DamagedFrame&) {
+    if (!remove_damaged_frames(drawn.folder, display)) throw;
+  }
+  drawn.overwrite = false;
+  draw(drawn);
+  use();
+}
+
 // Where no frames are written, faces are drawn and not joined.
 void render_panorama(const options::RenderOptions& options, const std::filesystem::path& self, const Adviser& adviser,
                      Display& display) {
   if (options.sink == options::SinkKind::none) return render(faces_of(options), self, adviser, display);
   FilmPanorama panorama(options, display);
-  if (panorama.is_there()) return;
-  const options::RenderOptions faces = panorama.faces();
-  if (!frames_there(faces)) render(faces, self, adviser, display);
-  panorama.join();
+  if (panorama.is_there()) return remove_left_faces(options.folder);
+  const auto draw = [&](const options::RenderOptions& faces) {
+    if (!frames_there(faces)) render(faces, self, adviser, display);
+  };
+  draw_and_use(
+      panorama.faces(), draw, [&] { panorama.join(); }, display);
+}
+
+// Of the folder, those that are not there yet.
+void render_frames(const options::RenderOptions& options, const std::filesystem::path& self, const Adviser& adviser,
+                   Display& display) {
+  if (const auto there = frames_there(options)) {
+    clear_ended_runs(options.folder);
+    remove_left_faces(options.folder);
+    return display.print(resumed_text({*there, *there, ""}));
+  }
+  if (!options.kept_film) check_film_file(options.film);  // else it may be gone
+  if (is_panorama(options))
+    render_panorama(options, self, adviser, display);
+  else
+    render(options, self, adviser, display);
 }
 
 }  // namespace
@@ -220,18 +263,12 @@ void launch_render(options::RenderOptions options, const std::filesystem::path& 
   for (const std::string& line : messages::unknown_settings()) display.print(line);
   messages::read_settings();  // wrong settings fail before anything is started
   FilmVideos videos(options, display);
-  if (const auto there = frames_there(options)) {
-    clear_ended_runs(options.folder);
-    display.print(resumed_text({*there, *there, ""}));
-    return videos.make();
-  }
   if (videos.are_there()) return;
-  if (!options.kept_film) check_film_file(options.film);  // else it may be gone
-  if (is_panorama(options))
-    render_panorama(options, self, adviser, display);
-  else
-    render(options, self, adviser, display);
-  videos.make();
+  const auto draw = [&](const options::RenderOptions& frames) { render_frames(frames, self, adviser, display); };
+  const auto make = [&] { videos.make(); };
+  if (options.own_folder) return draw_and_use(options, draw, make, display);
+  draw(options);
+  make();
 }
 
 Trial try_start(options::RenderOptions options, const std::filesystem::path& self) {

@@ -10,6 +10,12 @@ TEST(Mark, GoesRoundThroughAText) {
   EXPECT_EQ(mark_of(text_of(mark)), mark);
 }
 
+TEST(Mark, FilesOfAnyVersionAreOurs) {
+  EXPECT_TRUE(is_mark(text_of({"", "", {0}, 1, 24, 64, 36}))) << "of a preview";
+  EXPECT_TRUE(is_mark(R"({"mars": 2})"));
+  for (const char* text : {"", "mars", "[\"mars\"]", R"({"film": "mars"})"}) EXPECT_FALSE(is_mark(text)) << text;
+}
+
 TEST(Mark, TextsOfOthersAreNone) {
   for (const char* text :
        {"", "a comment", "{}", "[1]", R"({"mars": 2})", R"({"mars": 1, "film": 3})",

@@ -107,6 +107,17 @@ TEST(WholeFile, OfTwoThatWriteOneFileEachWritesAPartOfItsOwn) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
+TEST(WholeFile, PartsThatKilledProcessesLeftAreRemoved) {
+  const test::TemporaryFolder folder;
+  write_whole_file(folder / ".film.mars.0123456789abcdef.part", "x");
+  write_whole_file(folder / "film.mars", [&](const Write& write) {
+    EXPECT_EQ(folder.entries(), 1u) << "its own part";
+    write("text");
+  });
+  EXPECT_EQ(text_of(folder / "film.mars"), "text");
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
 TEST(FilledFile, PartsThatNoProcessFillsAreRemoved) {
   const test::TemporaryFolder folder;
   const std::filesystem::path left = folder / ".film.mp4.0123456789abcdef.part";
