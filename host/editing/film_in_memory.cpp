@@ -10,6 +10,7 @@
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/animator/reading/rig.h"
 #include "host/content/document/file.h"
+#include "host/editing/new_files.h"
 #include "host/editing/words.h"
 #include "host/cli/program.h"
 
@@ -121,6 +122,7 @@ void FilmInMemory::change(const Change& change) {
   Json changed = json_;
   change(changed, film_);
   animator::write_version(changed);
+  require_new_files_below(folder_, path_, keys::object("film"), json_, changed);
   const bool models_stay = animator::same_models(json_, changed);
   const auto with_these_models = [&](const document::Element& root) { return animator::read_film(root, film_.models); };
   animator::Film film = models_stay ? meaning_of(changed, path_, with_these_models) : with_other_models(changed);
@@ -145,6 +147,8 @@ bool FilmInMemory::changed_part(animator::FilmPart part, const Change& change) {
   try {
     change(json_, film_);
     if (animator::needs_newer_version(json_)) throw Failure("needs a newer version", "", "");
+    if (part.kind == animator::FilmPart::Kind::materials)
+      require_new_files_below(folder_, path_, keys::object("film"), Json{{"materials", *was.json}}, json_);
     animator::read_again(part, json_, film_);
   } catch (const std::exception&) {
     put_back(was);
@@ -185,11 +189,6 @@ void FilmInMemory::put_back(Part& part) {
 }
 
 animator::Film FilmInMemory::with_other_models(const Json& json) const {
-  const Json& known = json_.at("models");
-  if (const auto models = json.find("models"); models != json.end())
-    for (const auto& [name, model] : models->items())
-      if (model.is_string() && !(known.contains(name) && known.at(name) == model))
-        require_below(path_.parent_path() / model.get<std::string>());
   const auto read = [&](const document::Element& root) { return animator::read_film(root, path_.parent_path()); };
   return meaning_of(json, path_, read);
 }

@@ -4,8 +4,8 @@
 
 #include "hal/failure/failure.h"
 #include "host/cli/program.h"
-#include "host/content/document/file.h"
 #include "host/content/modeler/model_file.h"
+#include "host/editing/new_files.h"
 #include "host/editing/words.h"
 
 namespace mars::editing {
@@ -23,9 +23,7 @@ void ModelInMemory::create(const document::Json&) {
 }
 
 void ModelInMemory::become(const document::Json& json) {
-  const auto from = json.find("from");
-  if (!folder_.empty() && from != json.end() && from->is_string() && json_.value("from", document::Json()) != *from)
-    document::path_below(folder_, (std::filesystem::absolute(path_).parent_path() / from->get<std::string>()).string());
+  require_new_files_below(folder_, path_, keys::object("model"), json_, json);
   const document::Document document(document::laid_out(json), path_.string());
   model_ = modeler::read_own_model(document.root());
   json_ = json;

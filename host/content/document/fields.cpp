@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file.h"
 #include "host/content/document/forms.h"
 
 namespace mars::document {
@@ -154,6 +155,21 @@ std::string read_text(const Element& element) {
   require_kind(element, Kind::text);
   if (element.text().empty()) element.refuse("is an empty text", "write a name");
   return std::string(element.text());
+}
+
+std::filesystem::path read_file_name(const Element& element, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / read_text(element);
+  if (!file_exists(path))
+    element.refuse("is " + in_quotes(path.string()) + ", which does not exist",
+                   "name a file as seen from the folder of the file that names it");
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error))
+    element.refuse("is " + in_quotes(path.string()) + ", which is not a regular file", "name a file on a disk");
+  return path;
+}
+
+std::filesystem::path read_file_name(const Element& element) {
+  return read_file_name(element, std::filesystem::path(element.document().name()).parent_path());
 }
 
 std::size_t read_choice(const Element& element, std::span<const std::string_view> choices) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <span>
@@ -33,6 +34,10 @@ std::uint32_t read_count(const Element& element, std::uint32_t lowest, std::uint
 glm::dvec3 read_vector(const Element& element, Range range = {});
 glm::dvec3 read_color(const Element& element);  // each part 0 to 1
 std::string read_text(const Element& element);  // not empty
+
+// The path of a file that the element names as seen from a folder (its document's): a regular file that is there.
+std::filesystem::path read_file_name(const Element& element, const std::filesystem::path& folder);
+std::filesystem::path read_file_name(const Element& element);
 
 // The index of the text among `choices`.
 std::size_t read_choice(const Element& element, std::span<const std::string_view> choices);

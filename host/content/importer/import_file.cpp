@@ -8,6 +8,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/animator/reading/read_film.h"
 #include "host/content/document/document.h"
+#include "host/content/document/json_file.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/importer/apart.h"
@@ -58,12 +59,27 @@ ImportAs usual_form(FileKind kind) {
   return kind == FileKind::bvh || kind == FileKind::amc ? ImportAs::film : ImportAs::model;
 }
 
+void erase_images(document::Json& owner) {
+  if (const auto materials = owner.find("materials"); materials != owner.end())
+    for (document::Json& material : *materials) material.erase("images");
+  if (const auto models = owner.find("models"); models != owner.end())
+    for (document::Json& model : *models) erase_images(model);
+}
+
+// Images are written after the check, beside the model.
+std::string without_images(const std::string& text) {
+  document::Json json = document::Json::parse(text, nullptr, false);
+  if (json.is_discarded()) return text;
+  erase_images(json);
+  return json.dump();
+}
+
 // Of strange files, films and models may be beyond what MARS takes. Large meshes stand in brief.
 void check_text(const document::LongText& text, const ImportOptions& options) {
   const std::string file = options.from.string();
   const bool is_film = options.as == ImportAs::film;
   try {
-    const document::Document document(document::brief_of(text), file);
+    const document::Document document(without_images(document::brief_of(text)), file);
     if (is_film)
       animator::read_film(document.root(), options.to.parent_path());
     else

@@ -7,6 +7,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
+#include "host/content/importer/sources/companion.h"
 
 namespace mars::importer {
 namespace {
@@ -51,7 +52,7 @@ Promised promised_by_obj(const std::filesystem::path& path, std::string_view tex
     line.remove_prefix(std::min(line.find_first_not_of(kSpace), line.size()));
     const std::string name(line.substr(0, line.find_last_not_of(kSpace) + 1));
     std::error_code none;
-    if (!std::filesystem::exists(path.parent_path() / name, none))
+    if (!name.empty() && !std::filesystem::exists(companion(path, name), none))
       promised.not_read.push_back("colours of " + document::printable(name) + " (no such file beside the mesh)");
   }
   if (surfaces > 0)

@@ -35,7 +35,7 @@ std::optional<std::filesystem::path> SceneTextures::file_of(const std::string& t
   for (const std::filesystem::path& each : names) {
     std::error_code none;
     const std::filesystem::path path = mesh_.parent_path() / each;
-    if (stays_inside(each) && std::filesystem::is_regular_file(path, none)) return path;
+    if (stays_inside(each) && std::filesystem::is_regular_file(path, none)) return companion(mesh_, each.string());
   }
   return std::nullopt;
 }

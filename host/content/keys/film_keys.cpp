@@ -88,7 +88,7 @@ Object film() {
         .example = "48"},
        {.name = "rate", .meaning = "frames per second", .number = 24, .range = {0.001, 1000}},
        {.name = "audio",
-        .type = "text",
+        .type = "file",
         .meaning = "a file with the sound of videos, as seen from the film's folder",
         .see = "videos.md#sound",
         .without = "videos are silent",

@@ -36,9 +36,9 @@ struct Measure {
   std::string_view unit = {};
 };
 
-// One of `type`: "number", "whole" (a number), "choice" (of `choices`), "text", "flag" (true or false); a type of
-// types(), such as "color"; an object of objects(), such as "light"; "[light]": a list of them; "{material}": an object
-// of them by their names.
+// One of `type`: "number", "whole" (a number), "choice" (of `choices`), "text", "file" (its name, as seen from the
+// folder of the file that names it), "flag" (true or false); a type of types(), such as "color"; an object of
+// objects(), such as "light"; "[light]": a list of them; "{material}": an object of them by their names.
 struct Key {
   std::string_view name;
   std::string_view type = "number";

@@ -94,7 +94,7 @@ Object model() {
             .see = "#limbs",
             .without = "none"},
            {.name = "from",
-            .type = "text",
+            .type = "file",
             .meaning = "replaces `joints`: path of another model file, relative to this file's folder",
             .see = "#other-proportions",
             .without = "none",
@@ -371,7 +371,7 @@ Object images() {
                                       {"normal", "its normals in the axes of u, v and the surface, from 0 to 1"},
                                       {"surface", "in green its roughness, in blue its metal"},
                                       {"glow", "the light that it gives off"}})
-    images.keys.push_back({.name = name, .type = "text", .meaning = meaning, .without = "none"});
+    images.keys.push_back({.name = name, .type = "file", .meaning = meaning, .without = "none"});
   return images;
 }
 

@@ -82,7 +82,7 @@ class Schema {
               {"minimum", plain(key.range.lowest)},
               {"maximum", plain(key.range.highest)}};
     if (type == "choice") return {{"enum", key.choices}};
-    if (type == "text") return {{"type", "string"}, {"minLength", 1}};
+    if (type == "text" || type == "file") return {{"type", "string"}, {"minLength", 1}};
     if (type == "flag") return {{"type", "boolean"}};
     if (type.front() == '{')
       return {{"type", "object"},

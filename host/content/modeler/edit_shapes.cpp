@@ -1,7 +1,6 @@
 #include "host/content/modeler/edit_shapes.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
@@ -134,7 +133,11 @@ std::string set_point(Json& model, const Model& meaning, const std::string& join
   if (!own_shape(model, shape.name)) made = make_own(model, shape, joint);
   Json& own = model["shapes"][made.empty() ? shape.name : made];
   const Json from = point_of(own, joint, point);
-  const Json to = plain_vector(glm::clamp(point.place, 0.0, 1.0));
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(point.place[axis] >= 0 && point.place[axis] <= 1))
+      refuse("has a point at " + document::shown(point.place[axis]) + " of its box", joint,
+             "write numbers from 0 to 1; to make the box larger, change its sbb");
+  const Json to = plain_vector(point.place);
   for_each_point(own, [&](Json& each) {
     if (each == from) each = to;
   });

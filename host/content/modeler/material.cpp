@@ -20,7 +20,7 @@ void check_images(const document::Fields& material) {
   if (!images) return;
   const document::Fields fields(*images, keys::object("images"));
   for (const keys::Key& use : keys::object("images").keys)
-    if (const auto file = fields.find(use.name)) document::read_text(*file);
+    if (const auto file = fields.find(use.name)) document::read_file_name(*file);
 }
 
 }  // namespace

@@ -104,8 +104,7 @@ class ModelReader {
   }
 
   Model read_source(const document::Element& from) const {
-    const std::filesystem::path folder = std::filesystem::path(from.document().name()).parent_path();
-    const std::filesystem::path path = (folder / document::read_text(from)).lexically_normal();
+    const std::filesystem::path path = document::read_file_name(from).lexically_normal();
     if (std::ranges::count(sources_, path) || path == std::filesystem::path(from.document().name()).lexically_normal())
       from.refuse("derives the model from itself", "name a file with joints");
     std::vector<std::filesystem::path> sources = sources_;

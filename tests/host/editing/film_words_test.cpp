@@ -110,6 +110,15 @@ TEST_F(FilmWords, ChangeSettings) {
   film({"set", "frames=10", "size=64,36", "ambient=0.1,0.2,0.3", "curve=none"});
   EXPECT_EQ(json_["size"], document::Json::parse("[64, 36]"));
   EXPECT_EQ(json_["curve"], "none");
+  film({"set", "size=1024x512", "rate=30"});
+  EXPECT_EQ(json_["size"], document::Json::parse("[1024, 512]"));
+  for (const char* word : {"size=1024", "size=1024x512x3", "size=[1024", "size=large", "background=1", "background=red",
+                           "frames=1,2", "rate=fast", "samples=many"}) {
+    const std::string refusal = failure({"set", word});
+    const std::string key(word, std::string_view(word).find('='));
+    EXPECT_NE(refusal.find("is no value of " + key), std::string::npos) << refusal;
+    EXPECT_NE(refusal.find("write it like " + key + "="), std::string::npos) << refusal;
+  }
   EXPECT_NE(failure({"set", "frames=0"}).find("from 1 to 1000000"), std::string::npos);
   EXPECT_NE(failure({"set", "frame=1"}).find("did you mean 'frames'?"), std::string::npos);
   EXPECT_NE(failure({"set", "frames"}).find("KEY=VALUE"), std::string::npos);
@@ -120,6 +129,7 @@ TEST_F(FilmWords, ChangeSettings) {
 TEST_F(FilmWords, ChangeTheCamera) {
   json_["camera"]["keys"] = document::Json::parse(R"([{"frame": 0, "exposure": 1}])");
   film({"camera", "near=0.5", "far=500", "fov=35"});
+  EXPECT_NE(failure({"camera", "eye=1,2"}).find("write it like eye="), std::string::npos);
   EXPECT_EQ(json_["camera"], document::Json::parse(R"({"eye": [14, -8, 4.5], "at": [0, 0, 2.3], "fov": 35, "near": 0.5,
       "far": 500, "keys": [{"frame": 0, "exposure": 1}]})"));
   EXPECT_NE(failure({"camera", "exposure=2"}).find("also set by keys"), std::string::npos);

@@ -171,11 +171,20 @@ void require_version_2(const std::filesystem::path& path, const Tree& gltf) {
     throw Failure("is glTF of version 1", path.string(), "export it as glTF 2.0");
 }
 
+// Those that MARS takes items out of by their numbers.
+void require_lists(const std::filesystem::path& path, const Tree& gltf) {
+  for (const char* name : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
+                           "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
+    if (const Tree& list = at(gltf, name); !list.is_null() && !list.is_array())
+      throw Failure(std::string("has ") + name + " that are no list, as glTF has", path.string(), "export it again");
+}
+
 }  // namespace
 
 GltfBytes gltf_bytes(const std::filesystem::path& path, std::string bytes) {
   Tree gltf = gltf_json(bytes);
   require_version_2(path, gltf);
+  require_lists(path, gltf);
   require_within_buffers(path, gltf);
   require_alike_attributes(path, gltf);
   const auto has_packed_view = [](const Tree& view) { return !packed_view(view).is_null(); };

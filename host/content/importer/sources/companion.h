@@ -10,7 +10,7 @@ namespace mars::importer {
 // Whether `name`, as the file names it, is relative and leads nowhere above.
 bool stays_inside(const std::filesystem::path& name);
 
-// Where the file is that `file` names. Refuses what does not stay inside.
+// Where the file is that `file` names. Refuses what does not stay inside, as by a link that leads out.
 std::filesystem::path companion(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace mars::importer

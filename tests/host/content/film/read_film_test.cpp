@@ -125,10 +125,10 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
   const auto named = [&](const std::string& model) {
     return reported(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
   };
-  EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: /: is a directory, not a file (name a file in it)");
-  EXPECT_TRUE(document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: /dev/zero: is not a regular file"));
+  EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: is '/', which is not a regular file (name a file on a disk)");
+  EXPECT_TRUE(document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: is '/dev/zero', which is not a regular file"));
   EXPECT_TRUE(document::holds(named(R"({"from": "none.json", "proportions": {}})"),
-                              "f.json:1: models.m.from: none.json: there is no"));
+                              "f.json:1: models.m.from: is 'none.json', which does not exist"));
 }
 
 std::string outcome_of(const std::string& json) {

@@ -283,7 +283,9 @@ TEST_F(ImportTest, WhatAMeshNamesMustBeAFile) {
   fs::create_directory(folder_ / "folder");
   fs::create_symlink("/dev/zero", folder_ / "device");
   for (const std::string name : {"pipe", "folder", "device"}) {
-    const std::string says = name + (name == "folder" ? ": is a directory, not a file" : ": is not a regular file");
+    const std::string says = name == "pipe"     ? "pipe: is not a regular file"
+                             : name == "folder" ? "folder: is a directory, not a file"
+                                                : "names 'device', a link that leads out of its folder";
     const std::string obj = failure("names.obj", "mtllib " + name + "\n" + obj_box());
     EXPECT_TRUE(document::holds(obj, says)) << obj;
     std::string text = gltf_figure();
@@ -364,6 +366,20 @@ TEST_F(ImportTest, FilesOutsideOfTheFolderAreNotRead) {
     EXPECT_TRUE(document::holds(failure("far.gltf", gltf(uri)), "which is outside of its folder (put that file beside"))
         << uri;
   EXPECT_TRUE(document::holds(failure("far.obj", "mtllib ../far.mtl\n" + obj_box()), "is outside of its folder"));
+  EXPECT_TRUE(document::holds(failure("far.obj", "mtllib /etc/far.mtl\n" + obj_box()),
+                              "names '/etc/far.mtl', which is outside of its folder"));
+  const test::TemporaryFolder other;
+  std::ofstream(other / "far.bin") << std::string(36, '\0');
+  std::ofstream(other / "far.mtl") << "newmtl a\n";
+  std::filesystem::create_symlink(other / "far.bin", folder_ / "link.bin");
+  std::filesystem::create_symlink(other / "far.mtl", folder_ / "link.mtl");
+  std::filesystem::create_directory_symlink(other.path(), folder_ / "links");
+  for (const char* uri : {"link.bin", "links/far.bin"})
+    EXPECT_TRUE(document::holds(failure("far.gltf", gltf(uri)), "a link that leads out of its folder")) << uri;
+  EXPECT_TRUE(
+      document::holds(failure("far.obj", "mtllib link.mtl\n" + obj_box()), "names 'link.mtl', a link that leads"));
+  std::filesystem::create_symlink("beside.bin", folder_ / "near.bin");
+  EXPECT_FALSE(document::holds(failure("near.gltf", gltf("near.bin")), "near.bin")) << "which stays inside";
 }
 
 TEST_F(ImportTest, OtherEndingsAreRefusedByName) {

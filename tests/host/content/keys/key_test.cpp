@@ -23,7 +23,7 @@ void for_each_key(Check check) {
 
 bool is_known(std::string_view type) {
   if (type.front() == '[' || type.front() == '{') return is_known(type.substr(1, type.size() - 2));
-  const std::set<std::string_view> plain{"number", "whole", "choice", "text", "flag"};
+  const std::set<std::string_view> plain{"number", "whole", "choice", "text", "file", "flag"};
   return plain.contains(type) || find_type(type) != nullptr || find_object(type) != nullptr;
 }
 

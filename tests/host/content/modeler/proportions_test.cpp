@@ -165,7 +165,7 @@ TEST_F(Derived, ReadsTheOtherFileFromItsOwnFolder) {
 
 TEST_F(Derived, EveryMistakeIsOneClearError) {
   EXPECT_TRUE(
-      document::holds(failure(R"({"from": "leg.json", "proportions": {}})"), "leg.json: there is no such file"));
+      document::holds(failure(R"({"from": "leg.json", "proportions": {}})"), "/leg.json', which does not exist"));
   EXPECT_TRUE(document::holds(failure(R"({"from": "it.json", "proportions": {}})"), "derives the model from itself"));
   EXPECT_TRUE(document::holds(failure(R"({"from": "arm.json"})"), "has no 'proportions'"));
   EXPECT_TRUE(document::holds(failure(R"({"joints": [{"name": "a"}], "proportions": {}})"), "stands without from"));

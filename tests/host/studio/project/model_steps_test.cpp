@@ -185,7 +185,8 @@ TEST_F(ModelSteps, APulledPointTakesItsNeighboursAlong) {
   for (const auto& point : project->control_points("hip"))
     moved += glm::length(point.place - glm::dvec3(0.1, 0.1, 0.3)) < 1e-6 ? 1 : 0;
   EXPECT_EQ(moved, 3u) << "three sides of a box meet in a corner";
-  project->commit(pull(7));
+  EXPECT_THROW(project->commit(pull(7)), Failure) << "a point lies in the box";
+  project->commit(pull(1));
   EXPECT_FALSE(project->pulled());
   EXPECT_GT(project->shapes_revision(), own);
   EXPECT_TRUE(holds(text("pip.json"), R"("shape": "hip-shape")"));

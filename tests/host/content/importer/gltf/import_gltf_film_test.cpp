@@ -424,5 +424,15 @@ TEST_F(GltfFilms, TimesAreSingleNumbers) {
   EXPECT_TRUE(holds(failure_of([&] { import(glb.file()); }), "whose times are no single numbers"));
 }
 
+TEST_F(GltfFilms, WhatIsNoListIsRefused) {
+  for (const char* list : {"nodes", "meshes", "accessors", "buffers", "bufferViews", "animations", "skins", "cameras"})
+    for (const char* value : {"360", "\"x\"", "{\"a\": {}}"}) {
+      ImportOptions options = options_for(write("odd.gltf", std::string("{\"") + list + "\": " + value + "}"));
+      options.as = ImportAs::film;
+      const std::string refusal = failure_of([&] { import_model(options); });
+      EXPECT_TRUE(holds(refusal, std::string("odd.gltf: has ") + list + " that are no list")) << refusal;
+    }
+}
+
 }  // namespace
 }  // namespace mars::importer
