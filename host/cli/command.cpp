@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
@@ -13,9 +14,44 @@ namespace mars::cli {
 namespace {
 
 template <typename Number>
-Option limited(CLI::Option& option, Number least, Number most) {
-  return Option(*option.check(CLI::Range(least, most).description("")));
+std::string written(Number number) {
+  if constexpr (std::is_floating_point_v<Number>)
+    return document::shown(number);
+  else
+    return std::to_string(number);
 }
+
+// Says what is wrong with a word that is to be such a number, in place of the library's words for it.
+template <typename Number>
+std::string problem_of_number(const std::string& word) {
+  using Limits = std::numeric_limits<Number>;
+  Number number{};
+  std::int64_t whole = 0;
+  if (CLI::detail::lexical_cast(word, number)) return "";
+  if constexpr (std::is_floating_point_v<Number>) return document::in_quotes(word) + " is no number";
+  if (!CLI::detail::lexical_cast(word, whole)) return document::in_quotes(word) + " is no whole number";
+  return document::in_quotes(word) + " is not from " + written(Limits::lowest()) + " to " + written(Limits::max());
+}
+
+template <typename Number>
+Option limited(CLI::Option& option, Number least, Number most) {
+  const auto problem_of = [=](const std::string& word) {
+    Number number{};
+    const bool fits = CLI::detail::lexical_cast(word, number) && number >= least && number <= most;
+    return fits ? "" : document::in_quotes(word) + " is no number from " + written(least) + " to " + written(most);
+  };
+  return Option(*option.check(problem_of, ""));
+}
+
+// The kind of value as which each word of an option is read.
+template <typename Value>
+struct WordOf {
+  using Type = Value;
+};
+template <typename Value>
+struct WordOf<std::optional<Value>> : WordOf<Value> {};
+template <typename Value>
+struct WordOf<std::vector<Value>> : WordOf<Value> {};
 
 // An option's text may be empty: it is then as if it were not given. No number is.
 template <typename Value>
@@ -63,7 +99,10 @@ Option Option::range(std::int64_t least, std::int64_t most) const { return limit
 Option Option::range(double least, double most) const { return limited(*option_, least, most); }
 
 Option Option::one_of(const std::vector<std::string>& choices) const {
-  return Option(*option_->check(CLI::IsMember(choices).description("")));
+  return check([choices](const std::string& word) {
+    const bool known = std::ranges::find(choices, word) != choices.end();
+    return known ? "" : document::in_quotes(word) + " is none of " + document::joined(choices);
+  });
 }
 
 Option Option::check(const std::function<std::string(const std::string& word)>& problem_of) const {
@@ -92,7 +131,9 @@ Command Command::add_command(const std::string& name, const std::string& purpose
 
 template <typename Value>
 Option Command::add(const std::string& names, Value& value, const std::string& help) const {
+  using Word = typename WordOf<Value>::Type;
   const Option option(*app_->add_option(names, value, help));
+  if constexpr (std::is_arithmetic_v<Word>) return option.check(is_empty).check(problem_of_number<Word>);
   return names.starts_with('-') && kIsText<Value> ? option : option.check(is_empty);
 }
 
@@ -127,7 +168,9 @@ Option Command::add_read(const std::string& names, const std::function<void(cons
 
 Option Command::add_read(const std::string& names, const std::function<void(const std::vector<double>& numbers)>& read,
                          const std::string& help) const {
-  return Option(*app_->add_option_function<std::vector<double>>(names, read, help)).check(is_empty);
+  return Option(*app_->add_option_function<std::vector<double>>(names, read, help))
+      .check(is_empty)
+      .check(problem_of_number<double>);
 }
 
 Option Command::add_choice(const std::string& name, const std::vector<std::string>& words,

@@ -88,7 +88,8 @@ class Command {
                     const std::function<void(std::size_t number)>& take, const std::string& help) const;
 
   Command footer(const std::string& text) const;  // of its help, and of those of commands added later
-  // After all words are read and known: may throw UsageError, or Failure, which is one of this command.
+  // After all words are read and known, once for each command: may throw UsageError, or Failure, which is one of this
+  // command.
   void checks(const std::function<void()>& check) const;
   // What it does when it was given and all words make sense.
   void runs(const std::function<void()>& run) const;

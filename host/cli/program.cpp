@@ -195,14 +195,34 @@ const CLI::App& innermost(const CLI::App& app) {
 }
 
 // How an option that takes several words is written, by its help; "" of others.
-std::string written_form(const CLI::App& app, const CLI::ArgumentMismatch& error) {
-  const std::string message = error.what(), name = message.substr(0, message.find(':'));
+std::string written_form(const CLI::App& app, const std::string& name) {
   const CLI::Option* option = innermost(app).get_option_no_throw(name);
   if (option == nullptr || option->get_type_name().find(' ') == std::string::npos) return "";
   const std::string help = option->get_description();
   const std::size_t example = help.find("Example: ");
   if (example == std::string::npos) return "";
   return name + ": write " + option->get_type_name() + ", as in " + help.substr(example + std::strlen("Example: "));
+}
+
+// An option has too few words, or too many.
+std::string explained(const CLI::App& app, const CLI::ArgumentMismatch& error) {
+  const std::string message = error.what(), name = message.substr(0, message.find(':'));
+  if (const std::string form = written_form(app, name); !form.empty()) return form;
+  if (message.find(": At Most 1 required") != std::string::npos) return name + " is given more than once";
+  const CLI::Option* option = innermost(app).get_option_no_throw(name);
+  const bool lacks = message.ends_with(" missing") && option != nullptr;
+  return lacks ? name + ": " + option->get_type_name() + " is missing" : message;
+}
+
+// Words of an option, each sound by itself, make no value: "Could not convert: --limit = x,1,2".
+std::string explained(const CLI::App& app, const CLI::ConversionError& error) {
+  constexpr std::string_view kBefore = "Could not convert: ", kAfter = " = ";
+  const std::string message = error.what();
+  const std::size_t after = message.find(kAfter);
+  if (!message.starts_with(kBefore) || after == std::string::npos) return message;
+  const std::string name = message.substr(kBefore.size(), after - kBefore.size());
+  const std::string form = written_form(app, name);
+  return form.empty() ? name + ": '" + message.substr(after + kAfter.size()) + "' cannot be read" : form;
 }
 
 // "-o=out" would mean a file "=out".
@@ -246,10 +266,8 @@ std::string explained(const CLI::App& app, const CLI::ParseError& error) {
   const bool misfits = dynamic_cast<const CLI::ExtrasError*>(&error) || dynamic_cast<const CLI::RequiredError*>(&error);
   if (misfits)
     if (const CLI::App* command = given_too_much(app)) return misfit(*command);
-  if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error))
-    if (const std::string form = written_form(app, *mismatch); !form.empty()) return form;
-  if (const std::string text = error.what(); text.find(": At Most 1 required") != std::string::npos)
-    return text.substr(0, text.find(':')) + " is given more than once";
+  if (const auto* mismatch = dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return explained(app, *mismatch);
+  if (const auto* unread = dynamic_cast<const CLI::ConversionError*>(&error)) return explained(app, *unread);
   return error.what();
 }
 

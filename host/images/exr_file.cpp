@@ -17,6 +17,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <new>
 #include <string_view>
 
 #include "hal/failure/failure.h"
@@ -211,13 +212,12 @@ std::vector<std::string> missing_channels(const Imf::Header& header, wire::Pixel
 Image read(std::span<const std::byte> bytes, wire::PixelFormat format) {
   limit_sizes();
   // OpenEXR makes room for a text before it reads it.
-  if (!for_each_attribute(text_in(bytes), [](const Attribute&) {}))
-    throw Iex::InputExc("the file ends within its header");
+  if (!for_each_attribute(text_in(bytes), [](const Attribute&) {})) throw Failure("it ends within its header", "", "");
   BytesIn in(bytes);
   Imf::InputFile file(in);
   const Imath::Box2i window = file.header().dataWindow();
   const std::vector<std::string> missing = missing_channels(file.header(), format);
-  if (!missing.empty()) throw Iex::InputExc("it lacks " + document::joined(missing));
+  if (!missing.empty()) throw Failure("it lacks " + document::joined(missing), "", "");
   Image image{static_cast<std::uint32_t>(window.size().x) + 1, static_cast<std::uint32_t>(window.size().y) + 1, {}};
   image.pixels.resize(file_words(format) * image.width * image.height);
   file.setFrameBuffer(channels_in(reinterpret_cast<const char*>(image.pixels.data()), window.min, image.width, format));
@@ -293,12 +293,19 @@ std::optional<std::string> note_in_exr(std::span<const std::byte> start) {
 }
 
 Image decode_exr(std::span<const std::byte> bytes, const std::string& name, wire::PixelFormat format) {
+  const auto refuse = [&](const std::string& reason) {
+    throw Failure("not a whole EXR picture: " + reason, name, "render it again");
+  };
   try {
     return read(bytes, format);
-  } catch (const std::exception& failure) {
-    constexpr std::size_t kLongest = 200;  // it may repeat what stands in the file
-    throw Failure("not a whole EXR picture: " + document::printable(failure.what(), kLongest), name, "render it again");
+  } catch (const Failure& failure) {
+    refuse(failure.problem);
+  } catch (const std::bad_alloc&) {
+    refuse("it takes more memory than there is");
+  } catch (const std::exception&) {  // OpenEXR's
+    refuse("its bytes are cut short or damaged");
   }
+  return {};
 }
 
 }  // namespace mars::images

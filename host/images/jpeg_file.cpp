@@ -18,7 +18,7 @@ Image decode_jpeg(std::span<const std::byte> bytes, const std::string& name) {
   const auto* file = reinterpret_cast<const unsigned char*>(bytes.data());
   int width = 0, height = 0, subsampling = 0, space = 0;
   if (tjDecompressHeader3(decoder.get(), file, bytes.size(), &width, &height, &subsampling, &space) != 0)
-    throw torn(tjGetErrorStr2(decoder.get()));
+    throw torn("it does not begin as one, or is cut short");
   constexpr int kMost = static_cast<int>(wire::kMaxSide);
   if (width < 1 || height < 1 || width > kMost || height > kMost)
     throw torn("it has " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
@@ -26,7 +26,7 @@ Image decode_jpeg(std::span<const std::byte> bytes, const std::string& name) {
   image.pixels.resize(std::size_t{image.width} * image.height);
   if (tjDecompress2(decoder.get(), file, bytes.size(), reinterpret_cast<unsigned char*>(image.pixels.data()), width, 0,
                     height, TJPF_RGBX, 0) != 0)
-    throw torn(tjGetErrorStr2(decoder.get()));
+    throw torn("its bytes are cut short or damaged");
   return image;
 }
 

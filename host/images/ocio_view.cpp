@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -31,9 +32,18 @@ class OcioView : public DisplayView {
   OCIO::ConstCPUProcessorRcPtr processor_;
 };
 
+// Without OpenColorIO's first sentence, which names the file, and the words of the reader of YAML beneath it.
 std::string reason_of(const OCIO::Exception& failure) {
   constexpr std::size_t kLongest = 300;  // it may repeat what stands in the file
-  return document::printable(failure.what(), kLongest);
+  constexpr std::string_view kFirst = "' failed. ", kYaml = "yaml-cpp: error at ";
+  const std::string_view all = failure.what();
+  const std::size_t first = all.find(kFirst), yaml = all.find(kYaml);
+  if (yaml != all.npos) {
+    const std::string_view place = all.substr(yaml + kYaml.size());
+    return "it is not written as such configs are, in YAML, at " +
+           document::printable(place.substr(0, place.find(':')), kLongest);
+  }
+  return document::printable(first == all.npos ? all : all.substr(first + kFirst.size()), kLongest);
 }
 
 OCIO::ConstConfigRcPtr read_config(const std::string& file) try {

@@ -48,6 +48,23 @@ void take_bytes(png_structp png, png_bytep data, std::size_t size) {
   source->next += size;
 }
 
+struct Reason {
+  std::string_view part;  // of libpng's message
+  const char* words;
+};
+
+constexpr Reason kReasons[] = {{"too early", "it ends too early"},
+                               {"ot enough", "it ends too early"},
+                               {"CRC", "its bytes have changed since it was written"},
+                               {"IHDR", "its header has no size that MARS reads, or no kind of pixels that PNG has"},
+                               {"Not a PNG", "it does not begin as one"}};
+
+const char* in_our_words(std::string_view message) {
+  for (const Reason& reason : kReasons)
+    if (message.find(reason.part) != std::string_view::npos) return reason.words;
+  return "its bytes are not as PNG should be";
+}
+
 enum class Alpha { left_out, kept };
 
 class Reader {
@@ -102,7 +119,7 @@ class Reader {
 
 Image decode(std::span<const std::byte> bytes, int depth, Alpha alpha, const std::string& name) {
   const auto torn = [&](const Reader& reader) {
-    return Failure(std::string("not a whole PNG picture: ") + reader.reason(), name, "render it again");
+    return Failure(std::string("not a whole PNG picture: ") + in_our_words(reader.reason()), name, "render it again");
   };
   Source source{bytes.data(), bytes.data() + bytes.size()};
   Image image;

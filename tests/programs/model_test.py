@@ -56,6 +56,8 @@ class Model(ProgramTest):
         self.assertIn("left-fore-paw", self.model("man.json", "show"))
         self.dog()
         self.assertIn("the model's own now: 'leg-shape'", self.remarked("dog.json", "point", "leg", "--at", 1, 1, "--to", 0.5, 0.2, 1))
+        self.fail_clearly(1, "model", "dog.json", "point", "leg", "--at", 1, 1, "--to", 0.5, 0.2, 1.4,
+                          says="leg': has a point at 1.4 of its box (write numbers from 0 to 1; to make the box larger, change its sbb)")
         self.assertIn("leg-shape", json.loads((self.folder / "dog.json").read_text())["shapes"])
         self.assertIn("added as in a mirror: right-leg", self.remarked("dog.json", "mirror", "left", "leg"))
         self.assertEqual(self.joints()["right-leg"]["place"], [0.4, -0.1, -0.1])

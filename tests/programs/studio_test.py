@@ -275,8 +275,10 @@ class StartTest(ProgramTest):
                 page.hear("project")
             self.assertEqual(studio.end(), (0, ""))
         self.assertIn("the key cannot be used", self.refused(*arguments, "cert.pem"))
-        self.assertIn("the key cannot be used", self.refused(*arguments, "none.pem"))
-        self.assertIn("the certificate cannot be used", self.refused("--certificate", "none.pem", "--key", "key.pem"))
+        self.assertIn("none.pem: there is no such file", self.refused(*arguments, "none.pem"))
+        self.assertIn("none.pem: there is no such file", self.refused("--certificate", "none.pem", "--key", "key.pem"))
+        (self.folder / "text.pem").write_text("no certificate")
+        self.assertIn("it is no PEM file of certificates", self.refused("--certificate", "text.pem", "--key", "key.pem"))
 
     def test_only_files_below_its_folder(self):
         (self.folder / "inner").mkdir()

@@ -4,8 +4,8 @@ lines in place of Slurm's."""
 import signal
 import subprocess
 
-from harness import (ENVIRONMENT, SECONDS, SOURCES, ProgramTest, SideBySide, complaints, main, spinning_teapot,
-                     wait_until)
+from harness import (ENVIRONMENT, SECONDS, SOURCES, ProgramTest, SideBySide, complaints, main, needs,
+                     spinning_teapot, wait_until)
 
 LONG = 20000  # frames: more than are rendered while a test looks on
 SCRIPTS = [SOURCES / "cluster/slurm" / name for name in ("render.sbatch", "mpirun.sbatch", "srun.sbatch")]
@@ -136,6 +136,14 @@ class Commands(SideBySide, FakeSlurm):
     def test_a_complete_film_is_not_waited_for(self):
         self.succeed("mars", "render", "film.json", "-o", "out", "--backend", "threads", "--quiet")
         self.assertEqual(self.slurm("watch", "out"), "out: 24 of 24 frames of film.json, complete\n")
+
+    @needs("ffmpeg", "ffprobe")
+    def test_a_video_alone(self):
+        """Its working folder is MARS's from then on, so that the job may enter it."""
+        self.succeed("mars", "submit", "film.json", "-o", "film.mp4", env=self.environment)
+        self.assertTrue((self.folder / "film.mp4.mars-work" / "made-by-mars").exists())
+        self.succeed("mars", "render", "film.json", "-o", "film.mp4", "--kept-film", "--backend", "threads", "--quiet")
+        self.assertTrue((self.folder / "film.mp4").exists())
 
     def test_a_queue_that_does_not_answer(self):
         self.submit()

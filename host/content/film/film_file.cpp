@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
@@ -23,6 +24,7 @@ struct Header {
   std::uint64_t block_bytes;
   std::array<char, 32> checksum;  // of all before it and of the block
 };
+constexpr std::size_t kCompared = std::size_t{1} << 16;  // bytes at a time
 static_assert(sizeof(Header) == sizeof(CompiledFilm::Line));
 
 std::array<char, 32> checksum_over(const Header& header, std::span<const std::byte> block) {
@@ -58,6 +60,21 @@ void save_film(const CompiledFilm& film, const std::filesystem::path& path) {
 
 void save_film(const CompiledFilm& film, const std::filesystem::path& path, const std::filesystem::path& part) {
   document::replace_file(path, part, [&](const document::Write& write) { write_film(film, write); });
+}
+
+bool is_saved(const CompiledFilm& film, const std::filesystem::path& path) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(path, none)) return false;
+  std::ifstream file(path, std::ios::binary);
+  bool same = true;
+  std::string there(kCompared, '\0');
+  write_film(film, [&](std::string_view piece) {
+    for (; same && !piece.empty(); piece.remove_prefix(std::min(piece.size(), kCompared))) {
+      const std::string_view part = piece.substr(0, kCompared);
+      same = file.read(there.data(), static_cast<std::streamsize>(part.size())) && there.starts_with(part);
+    }
+  });
+  return same && file.peek() == std::ifstream::traits_type::eof();
 }
 
 bool is_compiled_film(const std::filesystem::path& path) {

@@ -12,6 +12,9 @@ void save_film(const CompiledFilm& film, const std::filesystem::path& path);
 // For a folder that MARS keeps: `part` is the temporary file (document::replace_file).
 void save_film(const CompiledFilm& film, const std::filesystem::path& path, const std::filesystem::path& part);
 
+// Whether the file is as save_film() writes the film.
+bool is_saved(const CompiledFilm& film, const std::filesystem::path& path);
+
 // Whether the file begins as a .mars file; false if it cannot be read.
 bool is_compiled_film(const std::filesystem::path& path);
 

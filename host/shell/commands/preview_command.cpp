@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
@@ -121,12 +123,13 @@ void add_view(cli::Command command, const std::shared_ptr<PreviewWords>& words) 
            "Colour space of linear light with sRGB's primaries in --ocio; default: scene_linear. Example: --ocio-input "
            "lin_srgb")
       .type("SPACE");
-  command.checks([words] {
-    if (words->view.config.empty() && words->view != images::ViewWish())
-      throw Failure("a view is one of an OpenColorIO config", "", "add --ocio CONFIG");
-    if (!words->view.config.empty() && words->exposing.curve)
-      throw Failure("a view of OpenColorIO has a curve of its own", "", "leave out --curve, or --ocio");
-  });
+}
+
+void check_view(const PreviewWords& words) {
+  if (words.view.config.empty() && words.view != images::ViewWish())
+    throw Failure("a view is one of an OpenColorIO config", "", "add --ocio CONFIG");
+  if (!words.view.config.empty() && words.exposing.curve)
+    throw Failure("a view of OpenColorIO has a curve of its own", "", "leave out --curve, or --ocio");
 }
 
 void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words) {
@@ -136,10 +139,29 @@ void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words
       "How the terminal shows pictures: its own graphics, or two pixels a character in 24-bit or 256 colours; default: "
       "what the terminal says it can show. Example: --graphics blocks");
   command.add_flag("--window", words->window, "Play in a window instead of the terminal. Example: --window");
-  command.checks([words] {
-    if (words->window && !words->write.file.empty())
-      throw Failure("-o writes a file and opens no window", "", "leave out --window, or -o");
-  });
+}
+
+// The first of these options that was given; "": none. Not every command has all.
+std::string first_given(cli::Command command, std::initializer_list<std::string_view> names) {
+  for (const cli::Option& each : command.options())
+    if (each.given() && std::ranges::find(names, each.name()) != names.end()) return each.name();
+  return "";
+}
+
+// What would be ignored is refused.
+void check_output(cli::Command command, const PreviewWords& words) {
+  const std::filesystem::path& file = words.write.file;
+  if (words.window && !file.empty())
+    throw Failure("-o writes a file and opens no window", "", "leave out --window, or -o");
+  const auto refuse = [&](std::initializer_list<std::string_view> names, const char* problem, const char* remedy) {
+    if (const std::string name = first_given(command, names); !name.empty())
+      throw Failure(name + problem, "", std::string(remedy) + name);
+  };
+  if (file.empty())
+    return refuse({"--size", "--frames", "--every", "--columns", "--codec", "--quality", "--audio"},
+                  " is for a file that is written, and none is named", "add -o FILE, or leave out ");
+  if (videos::is_video_name(file)) return refuse({"--columns"}, " is for contact sheets", "leave out ");
+  refuse({"--codec", "--quality", "--audio"}, " is for videos", "name one with -o, or leave out ");
 }
 
 videos::Exposing exposing_of(const PreviewWords& words) {
@@ -237,6 +259,7 @@ void add_preview(cli::Command app, const MakeSurface& make_surface) {
   add_screen(command, words);
   add_output(command, words);
   options::add_video_form(command, words->write.form);
+  command.checks([command, words] { check_output(command, *words); });
   command.footer("Keys turn joints and set keys of a film: h lists them. docs/previewing.md\n");
   command.runs([words, make_surface] { preview(*words, make_surface); });
 }
@@ -250,6 +273,10 @@ void add_play(cli::Command app) {
   add_video(command, words);
   add_exposing(command, words);
   add_view(command, words);
+  command.checks([command, words] {
+    check_output(command, *words);
+    check_view(*words);
+  });
   command.runs([words] { play_folder(*words); });
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "host/cli/command.h"
 #include "host/content/document/shell_line.h"
 #include "host/content/document/text.h"
+#include "host/content/document/work_folder.h"
 #include "host/render/farm/plan.h"
 #include "host/render/farm/rough_work.h"
 #include "host/render/resume/resume.h"
@@ -22,6 +24,7 @@
 #include "host/shell/batch/slurm.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/options/render_options.h"
+#include "host/videos/write_video.h"
 
 namespace mars::commands {
 namespace {
@@ -115,6 +118,10 @@ film::CompiledFilm film_of(const SubmitWords& words) {
                           .kept_film = render.kept_film,
                           .renders = false};
   if (words.print) return resume::film_for(wish, compile);
+  std::optional<document::WorkFolder> work;  // stays, with the film in it, for the job
+  if (render.own_folder)
+    work.emplace(render.videos.front(), document::WorkFolder::Use::alone,
+                 [&] { warn_submitter(videos::waiting_text({render.videos.front()})); });
   resume::Opened opened = resume::open(wish, compile, {.warn = warn_submitter});
   if (!opened.changed.empty()) std::cout << opened.changed << '\n';
   return std::move(opened.film);

@@ -4,13 +4,16 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
+#include "host/content/document/whole_file.h"
 
 namespace mars::options {
 namespace {
@@ -57,6 +60,27 @@ void check_videos(const RenderOptions& options) {
   for (const std::string& video : options.videos) videos::form_of(video, options.video_form);
 }
 
+void refuse_forms_of_no_video(const RenderOptions& options) {
+  if (options.video_form == videos::FormWish()) return;
+  throw Failure("there is no video that " + std::string(options.video_form.codec.empty() ? "--quality" : "--codec") +
+                    " could be of",
+                "", "name one, as -o film.mp4, or leave it out");
+}
+
+// Who writes the file last would be the only one to have written it.
+void refuse_same_outputs(const RenderOptions& options) {
+  std::vector<std::string> files = options.videos;
+  for (const std::string& file : {options.report, options.trace})
+    if (!file.empty()) files.push_back(file);
+  std::set<std::filesystem::path> places;
+  for (const std::string& file : files) {
+    if (!places.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(file))).second)
+      throw Failure("is named for two things that are written", file, "give each a file of its own");
+    for (const std::string& read : {options.hostfile, options.platform, options.view.config})
+      if (!read.empty()) document::refuse_same_file(read, file);
+  }
+}
+
 void check_view(const RenderOptions& options) {
   const images::ViewWish& view = options.view;
   if (view.config.empty() && view != images::ViewWish())
@@ -89,9 +113,12 @@ void check_layers(const RenderOptions& options) {
 
 }  // namespace
 
-void check_pictures(const RenderOptions& options) {
-  if (options.compression != images::Compression::zip && options.format != images::PictureFormat::exr)
+void check_compression(const RenderOptions& options, bool is_given) {
+  if (is_given && options.format != images::PictureFormat::exr)
     throw Failure("PNG files have one compression", "", "leave out --compression, or add --format exr");
+}
+
+void check_pictures(const RenderOptions& options) {
   check_view(options);
   check_layers(options);
 }
@@ -108,7 +135,8 @@ void check_together(const RenderOptions& options, Program program) {
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
   refuse_name_of_file(options);
-  if (!options.videos.empty()) check_videos(options);
+  options.videos.empty() ? refuse_forms_of_no_video(options) : check_videos(options);
+  refuse_same_outputs(options);
   if (options.backend == Backend::simulated && program == Program::studio)
     throw Failure("simulated nodes draw nothing that can be seen", "", "leave out --backend simulated");
   if (!options.hostfile.empty() && options.backend == Backend::threads) {

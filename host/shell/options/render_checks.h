@@ -7,6 +7,8 @@ namespace mars::options {
 
 // Of all programs: what files of frames cannot hold.
 void check_pictures(const RenderOptions& options);
+// Where files have one compression only, none may be chosen, not even theirs.
+void check_compression(const RenderOptions& options, bool is_given);
 // Of programs that draw.
 void check_together(const RenderOptions& options, Program program);
 

@@ -13,6 +13,7 @@
 #include "hal/failure/failure.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
+#include "host/content/document/work_folder.h"
 #include "host/images/frame_names.h"
 #include "host/images/layers.h"
 #include "host/cli/program.h"
@@ -198,7 +199,7 @@ void read_output(const std::string& word, bool makes_videos, RenderOptions& opti
 void read_outputs(RenderOptions& options, bool makes_videos) {
   for (const std::string& word : std::exchange(options.outputs, {})) read_output(word, makes_videos, options);
   if (!options.folder.empty() || options.videos.empty()) return;
-  options.folder = options.videos.front() + ".frames";
+  options.folder = frames_in(document::work_folder_of(options.videos.front())).string();
   options.own_folder = true;
 }
 
@@ -438,13 +439,18 @@ void refuse_former_names(cli::Command app) {
   }
 }
 
+bool is_given(cli::Command app, std::string_view name) {
+  return std::ranges::any_of(app.options(),
+                             [&](const cli::Option& each) { return each.name() == name && each.given(); });
+}
+
 // What --name, or the last part of -o, says: without its ending, which agrees with the format.
-void take_name(const std::string& text, RenderOptions& options) {
+void take_name(const std::string& text, bool has_format, RenderOptions& options) {
   using images::PictureFormat;
   const std::filesystem::path name = text;
   const bool has_ending = images::is_picture_name(name);
   const bool exr = name.extension() == images::facts_of(PictureFormat::exr).ending;
-  if (has_ending && exr && options.format == PictureFormat::png) options.format = PictureFormat::exr;
+  if (has_ending && exr && !has_format) options.format = PictureFormat::exr;
   if (has_ending && exr != (options.format == PictureFormat::exr))
     throw Failure(document::in_quotes(text) + " is no name of " + images::facts_of(options.format).name + " files", "",
                   "leave out --format, or the ending of the name");
@@ -452,16 +458,17 @@ void take_name(const std::string& text, RenderOptions& options) {
 }
 
 // Of options that are short for others, makes the others.
-void resolve(RenderOptions& options) {
+void resolve(cli::Command app, RenderOptions& options) {
+  const bool has_format = is_given(app, "--format");
   options.frames = options.frames.every(std::exchange(options.every, 1));
-  if (!options.name.empty()) take_name(options.name, options);
+  if (!options.name.empty()) take_name(options.name, has_format, options);
   const std::filesystem::path folder = options.folder;
   if (options.own_folder || !names_files(folder)) return;
   if (!options.name.empty())
     throw Failure("the files have two names, " + document::in_quotes(options.folder) + " and " +
                       document::in_quotes(options.name),
                   "", "leave out --name, or name a folder alone with -o");
-  take_name(folder.filename().string(), options);
+  take_name(folder.filename().string(), has_format, options);
   options.folder = folder.has_parent_path() ? folder.parent_path().string() : ".";
 }
 
@@ -486,10 +493,11 @@ void add_render_options(cli::Command app, RenderOptions& options, Program progra
   }
   if (program == Program::mars) put_under_headings(app);
   const bool draws = program != Program::compile && program != Program::plan;
-  app.checks([&options, program, draws] {
+  app.checks([app, &options, program, draws] {
     if (draws) read_outputs(options, program == Program::mars || program == Program::submit);
-    resolve(options);
+    resolve(app, options);
     check_pictures(options);
+    check_compression(options, is_given(app, "--compression"));
     if (draws) check_together(options, program);
   });
   if (draws) refuse_former_names(app);
@@ -501,6 +509,8 @@ std::optional<int> read_render_options(Program program, const char* name, const 
   add_render_options(words, options, program);
   return words.read(argc, argv);
 }
+
+std::filesystem::path frames_in(const std::filesystem::path& work) { return work / "frames"; }
 
 std::vector<std::string> film_arguments(const RenderOptions& options) {
   Arguments arguments = arguments_for(Program::compile, options);

@@ -3,6 +3,7 @@
 // and both directions: from a command line and to the command line of the program started next.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,6 +35,9 @@ std::string word_of_file(const std::string& name);
 
 // Whether a rendering is to be measured: then it renders.
 bool measures(const RenderOptions& options);
+
+// Where the frames of a video alone are, in the video's working folder.
+std::filesystem::path frames_in(const std::filesystem::path& work);
 
 // The options that change the compiled film, as arguments.
 std::vector<std::string> film_arguments(const RenderOptions& options);

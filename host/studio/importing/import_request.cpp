@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "hal/failure/failure.h"
@@ -17,7 +18,7 @@ namespace {
 using importer::FileKind;
 
 constexpr std::size_t kLongestName = 100, kDeepestName = 8, kLongestValue = 40;
-constexpr std::array kOptions{"height", "scale", "front", "up", "crease"};
+constexpr std::array<std::string_view, 5> kOptions{"height", "scale", "front", "up", "crease"};
 
 // No part of it is hidden, leads elsewhere, or could harm a terminal.
 bool is_plain(const std::string& name) {
@@ -46,13 +47,18 @@ ImportedFile read_file_of(const Json& json) {
 
 // Their values are the command's to check.
 std::vector<std::string> read_options(const Json& options) {
+  if (!options.is_object()) throw Failure("an import's options are an object", "", "");
+  for (const auto& [name, value] : options.items())
+    if (std::ranges::find(kOptions, name) == kOptions.end())
+      throw Failure("is no option of imports by pages", document::in_quotes(document::printable(name)),
+                    "they have " + document::joined(kOptions));
   std::vector<std::string> words;
-  for (const char* name : kOptions) {
+  for (const std::string_view name : kOptions) {
     const auto found = options.find(name);
     if (found == options.end() || found->is_null() || *found == "") continue;
     const std::string value = found->is_number() ? found->dump() : found->get<std::string>();
     if (value.size() > kLongestValue || value.find('\0') != value.npos)
-      throw Failure("is no value of the option", std::string("--") + name, "see mars import --help");
+      throw Failure("is no value of the option", "--" + std::string(name), "see mars import --help");
     words.push_back("--" + std::string(name) + "=" + value);
   }
   return words;

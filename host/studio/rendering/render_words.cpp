@@ -1,9 +1,12 @@
 #include "host/studio/rendering/render_words.h"
 
+#include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
+#include "host/content/document/text.h"
 
 namespace mars::studio {
 namespace {
@@ -23,6 +26,27 @@ std::string text_in(const Json& options, const char* name, const std::string& ot
   return found->get<std::string>();
 }
 
+bool is_option(std::string_view name) {
+  constexpr auto kOthers = std::to_array<std::string_view>({"folder", "video", "nodes", "hostfile", "alpha"});
+  return std::ranges::find(kTexts, name, [](const char* each) { return std::string_view(each); }) != kTexts.end() ||
+         std::ranges::find(kOthers, name) != kOthers.end();
+}
+
+void refuse_unknown(const Json& options) {
+  if (!options.is_object()) throw Failure("a rendering's options are an object", "", "");
+  for (const auto& [name, value] : options.items())
+    if (!is_option(name))
+      throw Failure("is no option of renderings by pages", document::in_quotes(document::printable(name)),
+                    "see docs/studio-protocol.md");
+}
+
+bool flag_in(const Json& options, const char* name) {
+  const auto found = options.find(name);
+  if (found == options.end() || found->is_null()) return false;
+  if (!found->is_boolean()) throw Failure(std::string(name) + " is neither true nor false", "", "");
+  return found->get<bool>();
+}
+
 }  // namespace
 
 fs::path frames_folder(const Json& options, const fs::path& folder) {
@@ -33,7 +57,7 @@ fs::path frames_folder(const Json& options, const fs::path& folder) {
 
 std::vector<std::string> render_words(const RenderingSettings& settings, const Json& options,
                                       const std::string& socket) {
-  if (!options.is_object()) throw Failure("a rendering's options are an object", "", "");
+  refuse_unknown(options);
   std::vector<std::string> words{settings.mars.string(),
                                  "render",
                                  fs::absolute(settings.film).string(),
@@ -48,7 +72,7 @@ std::vector<std::string> render_words(const RenderingSettings& settings, const J
   if (const std::string nodes = text_in(options, "nodes", ""); !nodes.empty()) words.push_back("--nodes=" + nodes);
   if (const std::string file = text_in(options, "hostfile", ""); !file.empty())
     words.push_back("--hostfile=" + document::path_below(settings.folder, file).string());
-  if (const auto alpha = options.find("alpha"); alpha != options.end() && *alpha == true) words.push_back("--alpha");
+  if (flag_in(options, "alpha")) words.push_back("--alpha");
   return words;
 }
 

@@ -138,7 +138,7 @@ TEST_F(Platforms, SayWhichCostsAreNotIdentified) {
   for (const char* name : {"measured", "small", "sure:small", "sure:measured"}) {
     EXPECT_EQ(read(name).unidentified, (std::vector{Work::pixel, Work::line})) << name;
     const std::string text = unidentified_text(read(name), std::array{Work::light, Work::pixel});
-    EXPECT_TRUE(holds(text, "what pixel cost is not identified")) << text;
+    EXPECT_TRUE(holds(text, "could not measure these kinds of work apart from others: pixel; the seconds are")) << text;
     EXPECT_EQ(unidentified_text(read(name), std::array{Work::light}), "");
   }
   EXPECT_TRUE(read("small:sure").unidentified.empty());

@@ -122,6 +122,10 @@ TEST_F(DisplayViews, RefuseWhatIsNotThere) {
   EXPECT_NE(problem(wish("Film", "log")).find("no colour space or role"), std::string::npos);
   EXPECT_NE(problem({(folder_ / "none.ocio").string()}).find("is no file"), std::string::npos);
   EXPECT_NE(problem({(folder_ / "table.cube").string()}).find("is no sound OpenColorIO config"), std::string::npos);
+  std::ofstream(folder_ / "odd.ocio") << "ocio_profile_version: 2\nroles: [\n";
+  const std::string odd = problem({(folder_ / "odd.ocio").string()});
+  EXPECT_NE(odd.find("it is not written as such configs are, in YAML, at line "), std::string::npos) << odd;
+  EXPECT_EQ(odd.find("yaml-cpp"), std::string::npos) << odd;
   std::string config = kConfig;
   config.replace(config.find("table.cube"), 10, "gone1.cube");  // OpenColorIO keeps files that it has read
   std::ofstream(folder_ / "config.ocio") << config;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <string_view>
 
 #include "host/content/document/whole_file.h"
 #include "host/images/picture_file.h"
@@ -95,6 +97,22 @@ TEST(PngFile, EveryCutOfAFileIsTold) {
     const std::string failure = document::failure_of([&] { decode_png(std::span(bytes).first(size), "cut.png"); });
     EXPECT_TRUE(document::holds(failure, "cut.png: not a whole PNG picture")) << size << " bytes of " << bytes.size();
   }
+}
+
+TEST(PngFile, WhatIsWrongIsToldInWordsOfOurs) {
+  const std::vector<std::byte> bytes = encode_picture(PictureFormat::png, 20, 20, random_pixels(400));
+  const auto failure_at = [&](std::size_t place, std::string_view now) {
+    std::vector<std::byte> damaged = bytes;
+    std::ranges::copy(std::as_bytes(std::span(now)), damaged.begin() + static_cast<std::ptrdiff_t>(place));
+    return document::failure_of([&] { decode_png(damaged, "a.png"); });
+  };
+  EXPECT_TRUE(document::holds(failure_at(0, "GIF89a"), "a.png: not a whole PNG picture: it does not begin as one"));
+  EXPECT_TRUE(document::holds(failure_at(29, "xxxx"), "its bytes have changed since it was written"));
+  const std::string_view no_size("\0\0\0\0\0\0\0\0\x08\x02\0\0\0\xb4\xe9\xeb\x45", 17);
+  for (const std::string& failure : {failure_at(16, no_size), failure_at(0, "GIF89a"), failure_at(29, "xxxx")})
+    for (const char* word : {"IHDR", "CRC", "Invalid", "zlib"}) EXPECT_FALSE(document::holds(failure, word)) << failure;
+  const std::string cut = document::failure_of([&] { decode_png(std::span(bytes).first(300), "a.png"); });
+  EXPECT_TRUE(document::holds(cut, "it ends too early")) << cut;
 }
 
 TEST(PngFile, NoDamageDoesHarm) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "host/cli/program.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/temporary_folder.h"
@@ -106,9 +108,12 @@ TEST(RenderOptions, TheOutputMayNameTheFiles) {
   EXPECT_TRUE(document::holds(read_output({"-o", "a/#.png", "--format", "exr"}).printed, "is no name of exr files"));
   EXPECT_TRUE(
       document::holds(read_output({"-o", "a/#.exr", "--format", "png16"}).printed, "is no name of png16 files"));
+  EXPECT_TRUE(document::holds(read_output({"-o", "a", "--name", "#.exr", "--format", "png"}).printed,
+                              "is no name of png files"));
   EXPECT_TRUE(document::holds(read_output({"-o", "a/#.png", "--name", "b"}).printed, "two names"));
   EXPECT_TRUE(document::holds(read_output({"-o", "a/##_##.png"}).printed, "more than one number"));
   EXPECT_TRUE(document::holds(read_output({"-o", "a", "--compression", "piz"}).printed, "PNG files have one"));
+  EXPECT_TRUE(document::holds(read_output({"-o", "a", "--compression", "zip"}).printed, "PNG files have one"));
   EXPECT_TRUE(
       document::holds(read_output({"-o", "a", "--format", "exr", "--compression", "dwaa"}).printed, "'dwaa' is not"));
 }
@@ -268,28 +273,55 @@ TEST(RenderOptions, OutputsAreAFolderAndVideos) {
   EXPECT_EQ(arguments_for(Program::host, reading.options), (Words{"film.json", "-o", "out"})) << "mars makes videos";
 }
 
+TEST(RenderOptions, FormsOfVideosNeedAVideo) {
+  for (const Program program : {Program::mars, Program::submit})
+    for (const Words& form : {Words{"--codec", "h264"}, {"--quality", "20"}}) {
+      const Reading reading = read(program, {"film.json", "-o", "out", form[0], form[1]});
+      EXPECT_EQ(reading.code, cli::kUsage);
+      EXPECT_TRUE(document::holds(reading.printed, "there is no video that " + form[0])) << reading.printed;
+    }
+}
+
+TEST(RenderOptions, WhatIsWrittenHasAFileOfItsOwn) {
+  const auto refusal = [](const Words& more) {
+    Words words{"film.json", "-o", "out"};
+    words.insert(words.end(), more.begin(), more.end());
+    return read(Program::mars, words).printed;
+  };
+  for (const Words& more : {Words{"-o", "r.mp4", "--report", "r.mp4"},
+                            {"-o", "r.mp4", "--trace", "x/../r.mp4"},
+                            {"-o", "r.mp4", "-o", "./r.mp4"},
+                            {"--report", "r.json", "--trace", "./r.json"}})
+    EXPECT_TRUE(document::holds(refusal(more), "is named for two things that are written")) << more[3];
+  const test::TemporaryFolder folder;
+  const std::string hosts = folder / "hosts";
+  std::ofstream(hosts) << "n1 slots=2\n";
+  EXPECT_TRUE(document::holds(refusal({"--hostfile", hosts, "--report", hosts}), "is the file that is read"));
+  EXPECT_EQ(refusal({"-o", "r.mp4", "--report", "r.json", "--trace", "t.json"}), "");
+}
+
 TEST(RenderOptions, AVideoAloneHasAFolderOfItsOwn) {
   const Reading reading = read(Program::submit, {"film.json", "-o", "a/b.mp4"});
-  EXPECT_EQ(reading.options.folder, "a/b.mp4.frames");
+  EXPECT_EQ(reading.options.folder, "a/b.mp4.mars-work/frames");
   EXPECT_TRUE(reading.options.own_folder);
   EXPECT_EQ(arguments_for(Program::submit, reading.options), (Words{"film.json", "-o", "a/b.mp4"}));
-  EXPECT_EQ(arguments_for(Program::threads, reading.options), (Words{"film.json", "-o", "a/b.mp4.frames"}));
+  EXPECT_EQ(arguments_for(Program::threads, reading.options), (Words{"film.json", "-o", "a/b.mp4.mars-work/frames"}));
   EXPECT_EQ(read(Program::host, {"film.json", "-o", "b.mp4"}).code, cli::kUsage);
 }
 
 TEST(RenderOptions, AFolderThatAPersonNamesIsNotTheVideosOwn) {
-  const Reading reading = read(Program::mars, {"film.json", "-o", "b.mp4.frames", "-o", "b.mp4"});
+  const Reading reading = read(Program::mars, {"film.json", "-o", "b.mp4.mars-work/frames", "-o", "b.mp4"});
   EXPECT_FALSE(reading.options.own_folder);
 }
 
 TEST(RenderOptions, ANumberInAVideosNameIsNoFrames) {
   for (const std::string video : {"a/b%d.mp4", "b##.mp4"}) {
     const Reading reading = read(Program::mars, {"film.json", "-o", video});
-    EXPECT_EQ(reading.options.folder, video + ".frames");
+    EXPECT_EQ(reading.options.folder, video + ".mars-work/frames");
     EXPECT_EQ(reading.options.name, "");
     const Words words = arguments_for(Program::threads, reading.options);
-    EXPECT_EQ(words, (Words{"film.json", "-o", video + ".frames/"}));
-    EXPECT_EQ(read(Program::threads, words).options.folder, video + ".frames/") << "no names of files either";
+    EXPECT_EQ(words, (Words{"film.json", "-o", video + ".mars-work/frames"}));
+    EXPECT_EQ(read(Program::threads, words).options.name, "") << "no names of files either";
   }
 }
 

@@ -48,8 +48,14 @@ TEST(ImportRequest, RefusesTooMuch) {
 
 TEST(ImportRequest, OptionsAreOneWordEach) {
   Json message = message_with({"rock.obj"});
-  message["options"] = {{"height", "5.1"}, {"front", "-z"}, {"up", ""}, {"output", "/etc/passwd"}};
+  message["options"] = {{"height", "5.1"}, {"front", "-z"}, {"up", ""}};
   EXPECT_EQ(import_request(message).options, (std::vector<std::string>{"--height=5.1", "--front=-z"}));
+  for (const char* other : {"output", "animation", "Height"}) {
+    message["options"] = {{"height", "5.1"}, {other, "walk"}};
+    EXPECT_THROW(import_request(message), Failure) << other;
+  }
+  message["options"] = Json::array({"height"});
+  EXPECT_THROW(import_request(message), Failure);
   message["options"] = {{"height", std::string(41, '1')}};
   EXPECT_THROW(import_request(message), Failure);
 }
