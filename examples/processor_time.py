@@ -15,7 +15,10 @@ import tempfile
 
 def seconds(command):
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    subprocess.run(command, check=True)
+    with tempfile.TemporaryDirectory() as folder:  # of this run alone: frames that are there would not be drawn again
+        run = subprocess.run([*command, "-o", os.path.join(folder, "frames")])
+    if run.returncode:
+        sys.exit(run.returncode)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -32,15 +35,13 @@ def main():
     parser.add_argument("--repeat", type=int, default=3)
     wanted, options = parser.parse_known_args()
     print("nodes    whole    start     work   work / one node's")
-    with tempfile.TemporaryDirectory() as folder:
-        base = [os.path.join(wanted.binaries, "mars"), "render", wanted.film, "-o", os.path.join(folder, "frames"),
-                "--quiet"]
-        one = None
-        for nodes in wanted.nodes.split(","):
-            whole = least(wanted.repeat, base + ["--nodes", nodes, *options])
-            start = least(wanted.repeat, base + ["--nodes", nodes, "--frames", "0", "--size", "16x9"])
-            one = one or whole - start
-            print(f"{nodes:>5} {whole:8.2f} {start:8.2f} {whole - start:8.2f} {(whole - start) / one:8.2f}", flush=True)
+    base = [os.path.join(wanted.binaries, "mars"), "render", wanted.film, "--quiet"]
+    one = None
+    for nodes in wanted.nodes.split(","):
+        whole = least(wanted.repeat, base + ["--nodes", nodes, *options])
+        start = least(wanted.repeat, base + ["--nodes", nodes, "--frames", "0", "--size", "16x9"])
+        one = one or whole - start
+        print(f"{nodes:>5} {whole:8.2f} {start:8.2f} {whole - start:8.2f} {(whole - start) / one:8.2f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -3,10 +3,13 @@
 import os
 import pathlib
 import re
+import subprocess
+import sys
 import time
 import unittest
 
-from harness import MPICH, SECONDS, ProgramTest, endless_film, family, main, needs_mpi, stopped, wait_until
+from harness import (ENVIRONMENT, EXAMPLES, MPICH, PROGRAMS, SECONDS, ProgramTest, endless_film, family, main, needs_mpi,
+                     stopped, wait_until)
 
 SLEEPS = 100  # of a process that looks at most 1000 times a second whether something came, and sleeps between
 
@@ -23,6 +26,28 @@ def times_it_slept(process):
 
 def seconds_it_ran(process):
     return sum(int((task / "schedstat").read_text().split()[0]) for task in tasks_of(process)) / 1e9
+
+
+class ProcessorTime(ProgramTest):
+    def measured(self, programs, film):
+        return subprocess.run([sys.executable, EXAMPLES / "processor_time.py", programs, film, "--nodes", "1,2", "--repeat",
+                               "2", "--frames", "0-3", "--size", "32x18"], capture_output=True, text=True, env=ENVIRONMENT)
+
+    def test_every_run_draws_into_a_folder_of_its_own(self):
+        programs, log = self.folder / "bin", self.folder / "log"
+        programs.mkdir()
+        (programs / "mars").write_text(f'#!/bin/sh\nfor word; do test "$last" = -o && ls -d "$word" >> {log} 2>&1; last=$word; '
+                                       f'done\nexec {PROGRAMS}/mars "$@"\n')
+        (programs / "mars").chmod(0o755)
+        measured = self.measured(programs, EXAMPLES / "cubes.json")
+        self.assertEqual((measured.returncode, measured.stderr), (0, ""))
+        self.assertEqual([line.split()[0] for line in measured.stdout.splitlines()], ["nodes", "1", "2"])
+        self.assertEqual(log.read_text().count("No such file"), 8)
+
+    def test_what_mars_refuses_has_its_words_alone(self):
+        refused = self.measured(PROGRAMS, self.folder / "none.json")
+        self.assertEqual(refused.returncode, 1)
+        self.assertRegex(refused.stderr, r"^mars: .*none.json: there is no such file.*\n$")
 
 
 @needs_mpi
