@@ -145,13 +145,13 @@ class Search {
   }
 
   // Keyframes by all nodes of a group, or by half as many, a quarter ... A host that takes strips slowly delays
-  // keyframes of many contributors much, but films little: inbetweens are drawn meanwhile.
+  // keyframes of many contributors much, but films little: inbetweens are drawn meanwhile. So fewer contributors are
+  // tried also where the host binds the film.
   Forecast with_contributors(const Cut& cut, farm::Plan plan) const {
     const auto limit = [this](double own) { return std::min(own, best_ ? best_->run.seconds : own) * kUseless; };
     Forecast best = rehearsed(cut, plan, limit(std::numeric_limits<double>::infinity()));
     int worse = 0;  // in a row
     for (std::int32_t fewer = plan.groups.front().count / 2; fewer >= 1 && worse < kWorseContributors; fewer /= 2) {
-      if (is_bound_by_host(best.run)) break;
       plan.contributors = fewer;
       Forecast next = rehearsed(cut, plan, limit(best.run.seconds));
       ++worse;

@@ -120,6 +120,20 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
   }
 }
 
+// Messages of 170 ms to the host bind the film, however keyframes are drawn. The first picture comes sooner of few
+// contributors.
+TEST(Contributors, AreFewWhereTheHostBindsToo) {
+  const test::TemporaryFolder folder;
+  const SimulatedFilm film(
+      "s3", "0-11", changed_platform(folder, "ipsc2", R"({"network": {"host_end": [[0, 0], [101, 0.17]]}})"));
+  const Forecast chosen = film.forecast(32, 1);
+  EXPECT_GT(chosen.run.host_busy, 0.97 * chosen.run.seconds);
+  EXPECT_GT(chosen.contributors, 0);
+  EXPECT_LE(chosen.contributors, 8);
+  const auto first_picture = [](const farm::FarmReport& report) { return report.frames.front().seconds; };
+  EXPECT_LT(first_picture(film.render(chosen)), 0.5 * first_picture(film.render(32, 1)));
+}
+
 // A film of mars calibrate, written into the folder, as SimulatedFilm takes it.
 std::string calibration_film(const test::TemporaryFolder& folder, const std::string& name) {
   static const std::vector<experiments::CalibrationFilm> films = experiments::calibration_films();
