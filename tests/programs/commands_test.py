@@ -108,7 +108,7 @@ class Commands(ProgramTest):
         text = self.succeed("mars", "info", "run.json")
         self.assertIn("nodes       2 nodes in 1 group, simulated\nframes      4\n", text)
         self.assertIn(f"what binds  {report['walls']['binding']} ", text)
-        self.assertEqual(len(report["walls"]["walls"]), len(text.splitlines()) - 6)
+        self.assertEqual(len(report["walls"]["walls"]), len(text.splitlines()) - 7)
         del report["walls"]
         self.write("old.json", report)
         old = self.mars("info", "old.json")

@@ -6,8 +6,6 @@
 namespace mars::walls {
 namespace {
 
-// Of a rendering's time: where no wall's gain is more, several bind together, and the longest is named.
-constexpr double kNoGain = 0.02;
 // A wall that takes less is none.
 constexpr double kNothing = 1e-3;
 
@@ -87,12 +85,12 @@ Explanation Explainer::explain() {
   Explanation found{seconds({}), {}, {}, 0};
   if (!first) return found;
   for (const Wall wall : there_.list()) {
-    const FoundWall one{wall, alone(wall), seconds({wall})};
+    const FoundWall one{wall, alone(wall), seconds({wall}), gain(wall, {})};
     const bool takes_time = std::max(one.alone, found.seconds - one.without) > kNothing * found.seconds;
     if (wall == *first || takes_time) found.walls.push_back(one);
   }
   std::ranges::stable_sort(found.walls, std::greater<>(),
-                           [&](const FoundWall& one) { return std::pair(one.wall == *first, gain(one.wall, {})); });
+                           [&](const FoundWall& one) { return std::pair(one.wall == *first, one.gain); });
   const Walls gone{*first};
   found.next = binding(gone);
   if (found.next) found.without_next = seconds(gone.with({*found.next}));

@@ -73,10 +73,15 @@ using SecondsWithout = std::function<double(Walls)>;
 // The same of several, each by its place.
 using AllSecondsWithout = std::function<std::vector<double>(const std::vector<Walls>&)>;
 
+// Of a rendering's time: where no wall's gain is more, several bind together, and the one that is longest alone is
+// named.
+inline constexpr double kNoGain = 0.02;
+
 struct FoundWall {
   Wall wall;
   double alone;    // seconds, of a rendering without all other walls
   double without;  // seconds, of the rendering without this one
+  double gain;     // seconds, by which the wall that binds is chosen; of `compute`, where work is even
 };
 
 struct Explanation {

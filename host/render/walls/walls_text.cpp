@@ -21,6 +21,19 @@ Wall wall_named(const std::string& name) {
   return static_cast<Wall>(found - kWallWords.begin());
 }
 
+// Why the first wall binds.
+std::string rule_of(const Explanation& explanation) {
+  const FoundWall* const first = explanation.binding();
+  if (first == nullptr) return "";
+  if (first->gain <= kNoGain * explanation.seconds)
+    return formatted("  no gain is more than %.0f %%, so several walls bind together: the longest alone is first\n",
+                     100 * kNoGain);
+  const auto differs = [&](const FoundWall& wall) { return wall.gain < explanation.seconds - wall.without; };
+  const bool is_uneven = std::ranges::any_of(explanation.walls, differs);
+  return std::string("  the wall with the greatest gain binds") +
+         (is_uneven ? "; compute gains only what evenly divided work takes\n" : "\n");
+}
+
 }  // namespace
 
 std::string line_of(const Explanation& explanation) {
@@ -35,11 +48,11 @@ std::string line_of(const Explanation& explanation) {
 }
 
 std::string table_of(const Explanation& explanation) {
-  std::string text = "  wall          alone (s)   without it (s)\n";
+  std::string text = "  wall          alone (s)   without it (s)     gain (s)\n";
   for (const FoundWall& wall : explanation.walls)
-    text += "  " + padded(name_of(wall.wall), 12) + formatted(" %10.3g %16.3g   ", wall.alone, wall.without) +
+    text += "  " + padded(name_of(wall.wall), 12) + formatted(" %10.3g %16.3g %12.3g   ", wall.alone, wall.without, wall.gain) +
             std::string(kWallWords[static_cast<std::size_t>(wall.wall)].about) + "\n";
-  return text;
+  return text + rule_of(explanation);
 }
 
 nlohmann::ordered_json json_of(const Explanation& explanation) {
@@ -51,14 +64,16 @@ nlohmann::ordered_json json_of(const Explanation& explanation) {
   }
   json["walls"] = nlohmann::ordered_json::array();
   for (const FoundWall& wall : explanation.walls)
-    json["walls"].push_back({{"wall", name_of(wall.wall)}, {"alone", wall.alone}, {"without", wall.without}});
+    json["walls"].push_back(
+        {{"wall", name_of(wall.wall)}, {"alone", wall.alone}, {"without", wall.without}, {"gain", wall.gain}});
   return json;
 }
 
 Explanation explanation_of(const nlohmann::json& json) {
   Explanation explanation{json.at("seconds"), {}, {}, 0};
   for (const nlohmann::json& wall : json.at("walls"))
-    explanation.walls.push_back({wall_named(wall.at("wall")), wall.at("alone"), wall.at("without")});
+    explanation.walls.push_back(
+        {wall_named(wall.at("wall")), wall.at("alone"), wall.at("without"), wall.at("gain")});
   if (json.contains("next")) {
     explanation.next = wall_named(json.at("next"));
     explanation.without_next = json.at("without_both");
