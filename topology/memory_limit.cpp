@@ -13,7 +13,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLeastShare = std::uint64_t{1} << 20;  // with less the node itself reports what it lacks
-constexpr std::uint64_t kMostShare = std::uint64_t{4} << 30;
 constexpr std::uint64_t kUnknownMemory = std::uint64_t{1} << 30;
 constexpr std::uint64_t kNoLimit = std::uint64_t{1} << 62;  // version 1 writes "none" as a number near 2^63
 

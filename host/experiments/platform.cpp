@@ -10,6 +10,7 @@
 #include "host/child/environment.h"
 #include "host/content/document/fields.h"
 #include "node/wire/work.h"
+#include "topology/memory_limit.h"
 
 namespace mars::experiments {
 namespace {
@@ -269,7 +270,7 @@ Platform read(const document::Element& root, const fs::path& folder) {
   platform.machine.host_apart = read_flag(host, "apart");
   platform.machine.host_speed = host.number("speed", 1, kRatios);
   platform.machine.host_processors = static_cast<int>(host.count("processors", 1, 1, kMany));
-  platform.host_memory = static_cast<std::uint64_t>(host.number("memory", 1ull << 36, {1 << 20, 1e15}));
+  platform.host_memory = static_cast<std::uint64_t>(host.number("memory", topology::kMostShare, {1 << 20, 1e15}));
   platform.machine.network = read_network(fields.required("network"));
   read_storage(fields, platform);
   read_work(fields, folder, platform);

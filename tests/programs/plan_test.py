@@ -214,8 +214,23 @@ class Plans(ProgramTest):
             report = self.folder / f"{writer}.json"
             self.succeed("mars", "render", *words[1:-1], "--backend", "simulated", "--sink", "none", "--write", writer,
                          "--report", report)
-            simulated = json.loads(report.read_text())["total_seconds"]
-            self.assertAlmostEqual(plan["seconds"] / simulated, 1, delta=0.15)
+            simulated = json.loads(report.read_text())
+            self.assertAlmostEqual(plan["seconds"] / simulated["total_seconds"], 1, delta=0.15)
+            self.assertEqual(plan["host_memory"], simulated["host_memory"]["most_bytes"])
+            if writer == "nodes":
+                self.assertEqual(plan["host_memory"], 4 * 640 * 360)
+
+    def test_a_host_apart_takes_nothing_of_the_nodes_machine(self):
+        platform = json.loads((SOURCES / "cluster/platforms/fat-tree.json").read_text())
+        words = ["mars", "plan", CUBES, "--nodes", 1, "--platform"]
+        apart, beside = (json.loads(self.succeed(*words, self.platform_with_costs(platform, host), "--json"))
+                         for host in ({"apart": True}, {"apart": False}))
+        self.assertAlmostEqual(beside["machine_memory"] - apart["machine_memory"], apart["host_memory"] + (8 << 20), delta=1)
+        self.assertRegex(self.succeed(*words, "fat-tree"), r"\na machine +[\d.]+ MB with its nodes\b(?!.*host)")
+
+    def platform_with_costs(self, platform, host):
+        costs = json.loads((SOURCES / "cluster/platforms/reference.json").read_text())["work"]
+        return self.write("platform.json", dict(platform, work=costs, host=dict(host, processors=32)))
 
     def test_it_takes_who_writes_sooner(self):
         words = ["plan", CUBES, "--nodes", 64, "--platform", "fat-tree"]

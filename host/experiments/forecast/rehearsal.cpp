@@ -217,6 +217,7 @@ Rehearsed Rehearsal::run(double limit) {
   result_.bytes_to_nodes += exchanges_.bytes();
   result_.frames = std::move(host_.frames());
   result_.host_busy = host_.busy_seconds();
+  if (nodes_write_) result_.host_memory = farm::where_nodes_write(result_.host_memory);
   return std::move(result_);
 }
 

@@ -39,4 +39,10 @@ HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& fil
   return memory;
 }
 
+HostMemory where_nodes_write(HostMemory shared) {
+  shared.frames = 1;
+  shared.backgrounds = shared.nodes = 0;
+  return shared;
+}
+
 }  // namespace mars::farm

@@ -54,13 +54,14 @@ struct Planned {
   std::vector<forecast::Forecast> otherwise;  // with files written by others, where that was compared
   std::vector<walls::Explanation> walls;      // of by_nodes, where they are to be explained
   double slots;                               // bytes of a node's strips
-  double machine = 0;                         // bytes that all processes of the host's machine use
+  double machine = 0;                         // bytes that all processes of a nodes' machine use
 
   // Of each number of nodes.
   void take_sooner() {
     for (std::size_t i = 0; i < by_nodes.size(); ++i)
       if (otherwise[i].seconds() < by_nodes[i].seconds()) std::swap(by_nodes[i], otherwise[i]);
   }
+  bool is_host_apart() const { return platform.machine.host_apart; }
   const forecast::Forecast& asked() const { return by_nodes.back(); }
   // The fewest nodes that take hardly longer than the shortest.
   const forecast::Forecast& best() const {
@@ -86,7 +87,8 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
   return experiments::read_platform(name, folder);
 }
 
-// Of the host and of the nodes beside it. Nodes of one machine have the memory of two frames.
+// Of the nodes of one machine and the host, where it is on this machine. Nodes of one machine have the memory of two
+// frames.
 double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
   constexpr double kProgram = 8 << 20;  // and MPI
   constexpr double kOfSample = 8 + 44;  // of the line that is drawn
@@ -99,14 +101,16 @@ double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
       planned.slots +
       static_cast<double>(wire::slot_bytes(asked.run.host_memory.format));  // and that of the next strip
   const double node = asked.run.node_memory * (nodes > 1 ? 2 : 1) + asked.run.shadow_memory + slots + line + kProgram;
-  return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) +
-         static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;
+  const double host =
+      planned.is_host_apart() ? 0 : static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;
+  return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) + host;
 }
 
-// Of this machine, MARS_MEMORY is what a node has.
-std::uint64_t node_memory(const options::RenderOptions& options, const experiments::Platform& platform) {
-  const bool is_here = options.platform.empty() || options.platform == kHere;
-  return is_here ? messages::read_settings().memory.value_or(platform.memory) : platform.memory;
+// What processes of this machine may use, where it is the one that would render: of a node MARS_MEMORY, if it is set.
+void use_memory_of_here(const options::RenderOptions& options, experiments::Platform& platform) {
+  if (!options.platform.empty() && options.platform != kHere) return;
+  platform.memory = messages::read_settings().memory.value_or(platform.memory);
+  platform.host_memory = session::host_machine({}).memory;
 }
 
 // Of all frames, which the file has or gets.
@@ -136,7 +140,7 @@ Planned plan(PlanWords words, const NodesCode& code) {
   const film::CompiledFilm film = job::load_drawn_film_of(options, warn_planner);
   const wire::PackedFilm view = film.view();
   experiments::Platform platform = platform_of(options, code);
-  platform.memory = node_memory(options, platform);
+  use_memory_of_here(options, platform);
   farm::check_shadow_memory(platform.memory, shadow::shadow_needs(view));
   const auto frames = options.frames.of_film(view.settings().frames);
   const std::vector<farm::Task> tasks = farm::make_tasks(view, frames, !options.no_coherence);
@@ -235,7 +239,7 @@ std::string text_of(const Planned& planned) {
   if (run.shadow_memory > 0) text += "            " + megabytes(run.shadow_memory) + " for shadows\n";
   text += "a machine   " + megabytes(planned.machine) + " with its nodes" +
           (run.still_memory > 0 ? ", of which " + megabytes(run.still_memory) + " a group for still lines" : "") +
-          ", and the host\n";
+          (planned.is_host_apart() ? "\n" : ", and the host\n");
   text += "the host    " + megabytes(static_cast<double>(run.host_memory.most_bytes())) + " at most\n";
   text += "messages    " + megabytes(run.bytes_to_nodes) + " between nodes, " + megabytes(run.bytes_to_host) +
           " to the host\n";

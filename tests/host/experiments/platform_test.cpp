@@ -53,6 +53,7 @@ TEST_F(Platforms, SayWhatMachinesAre) {
   EXPECT_EQ(platform.machine.nodes, 2);
   EXPECT_EQ(platform.machine.processors, 4);
   EXPECT_TRUE(platform.machine.host_apart);
+  EXPECT_EQ(platform.host_memory, std::uint64_t{4} << 30) << "as much as a host takes";
   EXPECT_EQ(platform.machine.network.topology, simulated::Topology::fat_tree);
   EXPECT_DOUBLE_EQ(platform.machine.network.byte, 1e-9);
   ASSERT_EQ(platform.machine.network.send.size(), 2u);

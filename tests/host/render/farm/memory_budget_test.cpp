@@ -51,6 +51,13 @@ TEST(SharedHostMemory, ManyNodesHaveFewerCredits) {
   EXPECT_LT(before, wire::kMaxCredits);
 }
 
+TEST(SharedHostMemory, WhereNodesWriteThereIsOnePicture) {
+  const HostMemory shared = share_host_memory(4 * kGiB, picture(1920, 1080), wire::PixelFormat::rgb8, 4096, 8, 16);
+  const HostMemory used = where_nodes_write(shared);
+  EXPECT_EQ(used.most_bytes(), used.frame_bytes);
+  EXPECT_EQ(used.credits, shared.credits) << "slots are the nodes'";
+}
+
 TEST(SharedHostMemory, HoweverSmallTheBudgetWorkGoesOn) {
   const HostMemory memory = share_host_memory(0, picture(1920, 1080), wire::PixelFormat::rgb8, 8, 2, 16);
   EXPECT_EQ(memory.frames, 2u);
