@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <set>
 
 #include "host/content/animator/pose/attachments.h"
+#include "host/content/animator/pose/check_pictures.h"
 #include "host/content/animator/pose/joint_frames.h"
 #include "host/content/animator/pose/limits_left.h"
-#include "host/content/animator/pose/worn_materials.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
 
@@ -169,41 +168,6 @@ void find_late_keys(const Film& film, std::vector<std::string>& lines) {
     find_late_keys(film, "material/" + material.name, last_key(material), lines);
 }
 
-// "material/oak", "actor 'tom', material 'skin'" of its model.
-std::string name_of(const Actor& actor, const WornMaterial& worn) {
-  return worn.of_film ? "material/" + worn.of_film->name
-                      : "actor '" + actor.name + "', material '" + worn.of_model->name + "'";
-}
-
-// Nodes light others at corners of triangles or once a triangle, which would not show where a shadow ends.
-bool fails_to_receive(const wire::Material& shading) {
-  return shading.receives && shading.interpolation != wire::Interpolation::phong;
-}
-
-void find_unreceived_shadows(const Film& film, std::vector<std::string>& lines) {
-  if (std::ranges::none_of(film.lights, &LightMotion::casts)) return;
-  const WornMaterials materials(film);
-  std::set<const void*> seen;
-  for (const Actor& actor : film.actors)
-    for (const modeler::Joint& joint : film.models[actor.model].joints) {
-      const auto worn = joint.segment ? materials.of(actor, joint.segment->material) : std::nullopt;
-      if (!worn || (!worn->of_film && !worn->of_model)) continue;
-      const wire::Material& shading = worn->of_film ? worn->of_film->shading : worn->of_model->material;
-      if (!fails_to_receive(shading) || !seen.insert(&shading).second) continue;
-      lines.push_back(name_of(actor, *worn) + ": no shadow falls on it, because its interpolation is " +
-                      std::string(modeler::word_of(shading.interpolation)) +
-                      " (make that phong, or set receives=false)");
-    }
-}
-
-void find_unused_sizes(const Film& film, std::vector<std::string>& lines) {
-  const auto is_wide = [](const Key<double>& size) { return size.value > 0; };
-  for (std::size_t i = 0; i < film.lights.size(); ++i)
-    if (!film.lights[i].casts && std::ranges::any_of(film.lights[i].size, is_wide))
-      lines.push_back("light/" + std::to_string(i + 1) +
-                      ": its size has no effect, because it casts no shadows (set shadow=true, or size=0)");
-}
-
 }  // namespace
 
 Findings check_film(const Film& film) {
@@ -222,8 +186,8 @@ Findings check_film(const Film& film) {
     find_falls(film, number, lines);
   }
   find_late_keys(film, lines);
-  find_unreceived_shadows(film, lines);
-  find_unused_sizes(film, lines);
+  find_lost_shadows(film, lines);
+  find_unfit_planes(film, lines);
   findings.trouble = !lines.empty();
   if (small > 0)
     lines.push_back(std::to_string(small) + (lines.empty() ? "" : " more") +
@@ -246,6 +210,9 @@ std::vector<std::string> warnings_of(const Film& film) {
     }
     lines.push_back(film.source + ": " + words_of(film, each) + remedy_of(film, each, animate));
   }
+  std::vector<std::string> planes;
+  find_unfit_planes(film, planes);
+  for (const std::string& line : planes) lines.push_back(film.source + ": " + line);
   return lines;
 }
 

@@ -201,40 +201,5 @@ TEST(Check, CallsNoFlightAJump) {
   EXPECT_EQ(check_film(film).lines, std::vector<std::string>{});
 }
 
-std::vector<std::string> lines_of_shadows(const std::string& light) {
-  const std::string json =
-      R"({"frames": 2, "camera": {"eye": [0, -9, 2]}, "lights": [{"direction": [0, 0, 1]}, )" + light + R"(],
-      "materials": {"tin": {"interpolation": "flat"}, "unused": {"interpolation": "flat"}, "oak": {},
-                    "sky": {"interpolation": "gouraud", "receives": false}},
-      "models": {"m": {"materials": {"fur": {"interpolation": "gouraud"}, "skin": {"interpolation": "flat"}},
-          "joints": [{"name": "a", "segment": {"shape": "box", "material": "fur"}},
-                     {"name": "b", "segment": {"shape": "box", "material": "tin"}},
-                     {"name": "c", "segment": {"shape": "box", "material": "skin"}},
-                     {"name": "d", "segment": {"shape": "box", "material": "sky"}},
-                     {"name": "e", "segment": {"shape": "box"}}]}},
-      "actors": [{"name": "tom", "model": "m", "materials": {"skin": "oak"}},
-                 {"name": "ann", "model": "m", "material": "tin"}]})";
-  const document::Document document(json, "f.json");
-  return check_film(read_film(document.root(), {})).lines;
-}
-
-TEST(Check, TellsOnWhatNoShadowFalls) {
-  const std::vector<std::string> lines = lines_of_shadows(R"({"place": [0, 0, 9], "shadow": true})");
-  ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0],
-            "actor 'tom', material 'fur': no shadow falls on it, because its interpolation is gouraud (make "
-            "that phong, or set receives=false)");
-  EXPECT_TRUE(lines[1].starts_with("material/tin: ")) << lines[1];
-  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9]})"), std::vector<std::string>{});
-}
-
-TEST(Check, TellsOfASizeWithoutShadow) {
-  const std::string line = "light/2: its size has no effect, because it casts no shadows (set shadow=true, or size=0)";
-  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "size": 1})"), std::vector<std::string>{line});
-  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "keys": [{"frame": 1, "size": 1}]})"),
-            std::vector<std::string>{line});
-  EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "size": 0})"), std::vector<std::string>{});
-}
-
 }  // namespace
 }  // namespace mars::animator
