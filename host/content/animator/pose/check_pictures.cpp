@@ -100,7 +100,7 @@ std::string plane_text(const Film& film, const char* key, double plane, double b
 
 std::string cut_text(const Film& film, const Look& nearest, const Look& farthest) {
   const CameraMotion& camera = film.camera;
-  if (nearest.away < camera.near)
+  if (nearest.away > 0 && nearest.away < camera.near)
     return "camera: nothing is drawn " + place_of(nearest) + ": " +
            plane_text(film, "near", camera.near, nearest.away * kNearPart);
   if (farthest.away > camera.far)

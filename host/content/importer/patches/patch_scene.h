@@ -40,8 +40,8 @@ inline PatchColor cut_color(const glm::dvec3& color) {
 }
 
 // bicubic_patch of POV-Ray, with numbers, vectors and objects that #declare names, and what moves and colours the
-// objects around it; other objects are skipped, as are macros, loops, conditions and files included from elsewhere than
-// its folder. Failures are at FILE:LINE.
+// objects around it; other objects are skipped, as are macros, loops, conditions and included files that are not there.
+// Failures are at FILE:LINE.
 PatchScene read_pov(const std::filesystem::path& path);
 
 // Patch and PatchMesh of RenderMan's RIB in text, bicubic in any basis or bilinear, with transformations and colours.

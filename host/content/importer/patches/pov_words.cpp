@@ -147,8 +147,8 @@ class PovIncluder {
 
   static std::optional<std::filesystem::path> file_of(const std::filesystem::path& path, const PovWord& name) {
     std::error_code none;
-    if (name.kind != PovKind::text || !stays_inside(name.text)) return std::nullopt;
-    const std::filesystem::path file = path.parent_path() / name.text;
+    if (name.kind != PovKind::text) return std::nullopt;
+    const std::filesystem::path file = companion(path, name.text);
     return std::filesystem::is_regular_file(file, none) ? std::optional(file) : std::nullopt;
   }
 

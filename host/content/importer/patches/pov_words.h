@@ -28,8 +28,8 @@ struct PovText {
   std::string place_of(const PovWord& word) const { return files[word.file] + ":" + std::to_string(word.line); }
 };
 
-// All of a file. Of files that it includes, those that lie in its folder stand in the place of their names; the others
-// stay as words. Failures are at FILE:LINE.
+// All of a file. Files that it includes stand in the place of their names; names of files that are not there, as of
+// POV-Ray's own, stay as words. A file outside of its folder is refused (sources/companion.h). Failures are at FILE:LINE.
 PovText pov_text(const std::filesystem::path& path);
 
 }  // namespace mars::importer

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <glm/geometric.hpp>
 
 #include "host/content/importer/patches/patch_scene.h"
@@ -70,6 +71,21 @@ TEST_F(Patches, OfPovRayComeFromIncludedFilesBesideThem) {
           "Wave }");
   EXPECT_EQ(scene.patches.size(), 1u);
   EXPECT_EQ(scene.skipped, (std::map<std::string, std::size_t>{{"#include", 1}, {"#macro", 1}}));
+}
+
+TEST_F(Patches, OfPovRayAreNotIncludedFromOutsideTheFolder) {
+  const test::TemporaryFolder other;
+  std::ofstream(other / "far.inc") << "#declare Wave = " + pov_patch();
+  std::filesystem::create_symlink(other / "far.inc", folder_ / "link.inc");
+  const auto failure = [&](const std::string& name) {
+    return failure_of([&] { pov("#include \"" + name + "\"\nobject { Wave }"); });
+  };
+  for (const std::string name : {"../far.inc", "/etc/far.inc"})
+    EXPECT_TRUE(holds(failure(name), "file.pov: names '" + name + "', which is outside of its folder (put that file"))
+        << failure(name);
+  EXPECT_TRUE(holds(failure("link.inc"), "names 'link.inc', a link that leads out of its folder"))
+      << failure("link.inc");
+  EXPECT_EQ(pov("#include \"colors.inc\"\n" + pov_patch()).skipped.at("#include"), 1u) << "one of POV-Ray's own";
 }
 
 TEST_F(Patches, OfRibFollowTheirBasisAndMatrices) {
