@@ -285,6 +285,9 @@ class Refused(ProgramTest):
                             (("-o", "film.avi"), "ends in none of .png, .mp4, .m4v, .mov"), (("--every", "0"), "0"),
                             (("--graphics", "x"), "x"), (("--frames", "a"), "a"), (("--columns", "-1"), "-1")]:
             self.fail_clearly(2, "preview", ARM, *words, says=says)
+        for command in ["preview", "play"]:
+            for way in [["-o", "a.png"], ["--window"]]:
+                self.fail_clearly(2, command, ARM, "--graphics", "blocks", *way, says="--graphics is for pictures in the terminal")
 
     def test_bad_films(self):
         self.fail_clearly(1, "preview", "none.json", "-o", "a.png", says="none.json")

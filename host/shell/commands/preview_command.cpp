@@ -153,6 +153,9 @@ void check_output(cli::Command command, const PreviewWords& words) {
   const std::filesystem::path& file = words.write.file;
   if (words.window && !file.empty())
     throw Failure("-o writes a file and opens no window", "", "leave out --window, or -o");
+  if (first_given(command, {"--graphics"}) != "" && (words.window || !file.empty()))
+    throw Failure("--graphics is for pictures in the terminal", "",
+                  std::string("leave it out, or ") + (words.window ? "--window" : "-o"));
   const auto refuse = [&](std::initializer_list<std::string_view> names, const char* problem, const char* remedy) {
     if (const std::string name = first_given(command, names); !name.empty())
       throw Failure(name + problem, "", std::string(remedy) + name);

@@ -39,6 +39,18 @@ void refuse_name_of_file(const RenderOptions& options) {
                 video ? "videos are " + videos::endings_text() : remedy);
 }
 
+// What says how files are named and which are kept means nothing where there are none.
+void refuse_words_of_no_files(const RenderOptions& options) {
+  if (options.sink == SinkKind::files) return;
+  const char* word = !options.name.empty()       ? "--name"
+                     : options.first_number != 0 ? "--first-number"
+                     : options.overwrite         ? "--overwrite"
+                                                 : nullptr;
+  if (word != nullptr)
+    throw Failure(std::string(word) + " is about files, of which --sink none writes none", "",
+                  "leave out " + std::string(word) + ", or --sink none");
+}
+
 bool is_watched(const RenderOptions& options) { return options.window || !options.watch.empty(); }
 
 void check_writing_nodes(const RenderOptions& options) {
@@ -135,6 +147,7 @@ void check_together(const RenderOptions& options, Program program) {
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
   refuse_name_of_file(options);
+  refuse_words_of_no_files(options);
   options.videos.empty() ? refuse_forms_of_no_video(options) : check_videos(options);
   refuse_same_outputs(options);
   if (options.backend == Backend::simulated && program == Program::studio)

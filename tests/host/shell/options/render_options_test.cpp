@@ -53,7 +53,7 @@ RenderOptions unusual() {
   options.overwrite = true;
   options.force = true;
   options.kept_film = true;
-  options.sink = SinkKind::none;
+  options.write = WriteWhere::host;
   options.format = images::PictureFormat::exr;
   options.compression = images::Compression::piz;
   options.alpha = true;
@@ -83,6 +83,7 @@ TEST(RenderOptions, GoRoundThroughACommandLine) {
   const Reading reading = read(Program::mars, arguments_for(Program::mars, unusual()));
   EXPECT_EQ(reading.code, std::nullopt) << reading.printed;
   EXPECT_EQ(reading.options, unusual());
+  EXPECT_EQ(read(Program::mars, {"film.json", "--sink", "none"}).options.sink, SinkKind::none);
 }
 
 TEST(RenderOptions, TheOutputMayNameTheFiles) {
@@ -279,6 +280,18 @@ TEST(RenderOptions, FormsOfVideosNeedAVideo) {
       const Reading reading = read(program, {"film.json", "-o", "out", form[0], form[1]});
       EXPECT_EQ(reading.code, cli::kUsage);
       EXPECT_TRUE(document::holds(reading.printed, "there is no video that " + form[0])) << reading.printed;
+    }
+}
+
+TEST(RenderOptions, WordsAboutFilesNeedFiles) {
+  for (const Program program : {Program::mars, Program::host, Program::ranks, Program::threads})
+    for (const Words& more : {Words{"--name", "shot_##"}, {"--first-number", "7"}, {"--overwrite"}}) {
+      Words words{"film.json", "--sink", "none"};
+      words.insert(words.end(), more.begin(), more.end());
+      const Reading reading = read(program, words);
+      EXPECT_EQ(reading.code, cli::kUsage);
+      EXPECT_TRUE(document::holds(reading.printed, more[0] + " is about files, of which --sink none writes none"))
+          << reading.printed;
     }
 }
 
