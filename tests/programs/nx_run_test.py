@@ -421,8 +421,20 @@ class Ends(NxRun):
 
     @needs_mpi
     def test_a_node_crashes_under_mpi(self):
-        done = self.run_nx("--over", "mpi", "--nodes", 4, "./node", "--", "crash")
+        for words in [["./node", "--", "crash"], ["./host", "./node", "receive", "crash"]]:
+            done = self.run_nx("--over", "mpi", "--nodes", 4, *words)
+            self.assertEqual(done.stderr, "mars-nx: node 2 died: signal 11 (Segmentation fault)\n")
+            self.assertNotEqual(done.returncode, 0)
+
+    @needs_mpi
+    def test_mpirun_says_one_line(self):
+        script = self.write("unreadable", "#!/nowhere/sh\n")
+        script.chmod(0o755)
+        done = self.run_nx("--over", "mpi", "--nodes", 2, "./unreadable")
+        self.assertClear(done.stderr, "unreadable: cannot be started on machine")
         self.assertNotEqual(done.returncode, 0)
+        done = self.run_nx("--over", "mpi", "--nodes", 2, "./node", "--", "fail")
+        self.assertClear(done.stderr, "node 0, csend: there is no node 99")
 
     def test_a_parent_that_ignores_the_ends_of_its_children(self):
         ignoring = ["sh", "-c", "trap '' CHLD; exec \"$@\"", "sh"]

@@ -11,6 +11,7 @@
 #include "host/child/programs.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/session_folders.h"
+#include "host/shell/nx/mpi_help.h"
 #include "topology/machine.h"
 #include "topology/memory_limit.h"
 
@@ -81,7 +82,7 @@ child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::u
   return command;
 }
 
-// Becomes mpirun: its output, its end and the signals it is sent are its own.
+// Becomes mpirun: its output, its end and the signals it is sent are its own, but for its words on standard error.
 [[noreturn]] void run_mpi(const NxRun& job, const NxPrograms& programs) {
   check_mpi_can_start(job, programs);
   std::uint32_t nodes = 0;
@@ -95,6 +96,7 @@ child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::u
     command.words.emplace_back(":");
   }
   add(nodes, programs.node);
+  if (command.open_mpi != child::OpenMpi::none) explain_mpi_help(!programs.host.empty());  // before files are locked
   const launch::SessionFolders folders(command);
   folders.leave_to_another();
   child::become(command);

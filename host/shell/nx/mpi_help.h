@@ -1,0 +1,30 @@
+// What Open MPI's mpirun says of its own accord on standard error: blocks of help between lines of dashes, which are
+// held back for the one line that a person needs, and remarks about these. What programs print goes through.
+#pragma once
+
+#include <string>
+
+namespace mars::nx_jobs {
+
+class MpiHelp {
+ public:
+  // `has_host`: rank 0 is the host, else it is node 0.
+  explicit MpiHelp(bool has_host) : has_host_(has_host) {}
+
+  // What of the text is to be shown once this line, without its end, has come.
+  std::string take(const std::string& line);
+  // The rest when nothing more comes: what happened, in a line; "" where the exit code says it, or the programs did.
+  // Help that is not understood as it is.
+  std::string finish() const;
+
+ private:
+  bool has_host_;
+  bool is_within_ = false;
+  std::string block_;  // that has begun
+  std::string help_;   // all that was held back
+};
+
+// From now on, this process' standard error, and that of what it becomes, goes through MpiHelp to where it went before.
+void explain_mpi_help(bool has_host);
+
+}  // namespace mars::nx_jobs
