@@ -19,7 +19,6 @@ class Watched(ProgramTest):
 
     def watch(self, *words, rest=0.0, last=None):
         """The watcher of a rendering that has ended; its `seen`: a copy of what it had after each picture."""
-        (self.folder / "socket").unlink(missing_ok=True)
         seen = []
         watcher = Watcher(self.folder / "socket", lambda w: seen.append(w.copy()), rest, last)
         self.succeed("mars", "render", *words, "-o", "out", "--overwrite", "--watch", self.folder / "socket")
@@ -59,6 +58,15 @@ class Watched(ProgramTest):
                     self.assertShown(seen)
                     self.assertEqual(watcher.begun, [(96, 54, 16, groups, 30, nodes)])
                     self.assertEqual(sorted(watcher.drawn), list(range(30)))
+
+    def test_nodes_may_have_no_lines_of_a_keyframe(self):
+        """As where a picture is empty: the first node has all of its lines."""
+        film = self.folder / "empty.json"
+        film.write_text('{"frames": 2, "size": [96, 54], "camera": {"eye": [3, -6, 2]}}')
+        for nodes in [1, 2, 3]:
+            with self.subTest(nodes=nodes):
+                _, seen = self.watch(film, "--nodes", nodes, "--groups", 1, "--no-coherence", "--backend", "threads")
+                self.assertShown(seen)
 
     def test_a_slow_watcher_has_the_last_frame(self):
         for rest in [0.05, 0.3]:

@@ -1,6 +1,7 @@
 """A watcher of a rendering, for tests: listens at a socket and puts together what the host says
 (host/render/pictures/messages.h). Reads frames' PNG files."""
 
+import pathlib
 import socket
 import struct
 import threading
@@ -25,9 +26,10 @@ class Watcher:
         self.pictures = 0
         self.failure = None
         self.listener = socket.socket(socket.AF_UNIX)
+        pathlib.Path(path).unlink(missing_ok=True)  # of a watcher before
         self.listener.bind(str(path))
         self.listener.listen(1)
-        self.thread = threading.Thread(target=self.work)
+        self.thread = threading.Thread(target=self.work, daemon=True)  # no host may come
         self.thread.start()
 
     def work(self):

@@ -2,15 +2,16 @@
 """mars bench identity: whether films have the same bits however they are rendered. Random films
 (random_film.py) are rendered in several random ways each: over threads, processes and MPI, by 1 to 9
 nodes in any groups and teams, with and without cuts and coherence, by each instruction set, with little memory, by every
-mapping. One way of a film draws it from nothing with one node. All ways of a film give the same picture: some films in
-layers, with alpha, as faces of a panorama, by one eye of two, or a part of the picture, which is compared with the whole.
+mapping, with and without a program that watches. One way of a film draws it from nothing with one node. All ways of a film
+give the same picture: some films in layers, with alpha, as faces of a panorama, by one eye of two, or a part of the picture,
+which is compared with the whole. What a watcher of 8-bit frames has at last is compared with the frame's file.
 
 Then commands edit each film at random (random_edits.py), and it is rendered in as many ways again. One
 more way renders the edited film into the folder of the film before its edits, where mars render draws
 only the frames that have changed.
 
 For each film, the command prints its seed, its pixels' hash and what it is; for an edited film the
-edits; for a way that gives other files the command that shows them. The exit code is 1 if there is
+edits; for a way that gives other files, or that fails, the command that shows it. The exit code is 1 if there is
 one."""
 import argparse
 import hashlib
@@ -28,8 +29,10 @@ import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent.parent / "programs"))
 from exr_reader import Exr  # noqa: E402
+from png_reader import png_rows  # noqa: E402
 from random_edits import random_edit  # noqa: E402
 from random_film import RandomFilm  # noqa: E402
+from watcher import Watcher  # noqa: E402
 
 CONTINUED = {"--backend": "threads", "--nodes": "2"}
 PLAIN = {"--backend": "threads", "--nodes": "1", "--no-coherence": None}
@@ -80,6 +83,8 @@ def random_way(choose, mpi, film):
         environment["MARS_MEMORY"] = choose.choice(["24", "32"] if casts(film) else ["1", "2", "8"])  # shadows need some
     if random.Random(f"writers of {way}").random() < 0.4:  # of its own: ways of a seed stay
         way["--write"] = "nodes"
+    elif nodes > 1 and random.Random(f"watchers of {way}").random() < 0.4:
+        way["--watch"] = str(film.parent / "watcher")
     return way, environment
 
 
@@ -115,6 +120,12 @@ def output(path):
         words += ["--layers", choose.choice(of_any if "--faces" in words else [*of_any, "all", "depth,motion"])]
     has_part = projection != "panorama" and choose.random() < 0.35
     return words + (part(choose, width, height) if has_part else [])
+
+
+def is_shown_as_it_is(path):
+    """Whether a watcher sees just the colours of the film's files."""
+    changing = {"--alpha", "--format", *PARTS}.intersection(form(path) + output(path))
+    return not changing and json.loads(path.read_text())["camera"].get("projection") != "panorama"
 
 
 class Refused(RuntimeError):
@@ -164,8 +175,18 @@ class Films:
         """Of the pixels in the folder `frames`, into which the film is rendered; what is in it stays, except in "frames"."""
         if frames == "frames":
             shutil.rmtree(self.folder / frames, ignore_errors=True)
+        watcher = Watcher(way["--watch"]) if "--watch" in way else None
         self.run(self.words(path, way, frames), environment)
+        if watcher:
+            self.check_watcher(watcher, path, frames)
         return re.search(r"^pixels \(.*\) (\w+)$", self.run(["verify", str(self.folder / frames)]), re.MULTILINE)[1]
+
+    def check_watcher(self, watcher, path, frames):
+        watcher.end()
+        if watcher.whole != 1:
+            raise RuntimeError("the watcher's last picture is no whole frame")
+        if is_shown_as_it_is(path) and watcher.colors() != png_rows(self.files(frames)[watcher.frame]):
+            raise RuntimeError(f"the watcher has other pixels of frame {watcher.frame}")
 
     def content(self, path, way, environment):
         """That hash of the film, rendered into an empty folder, and a hash of the bytes of its files."""
@@ -229,8 +250,14 @@ def compare(films, path, ways):
     """The pixels' hash of the plain way, and the commands of those that give another, or other bytes of files; of a film
     in part, also the command of the plain way if that is no part of the whole picture."""
     expected = films.content(path, PLAIN, {})
-    wrong = [shown(["mars", *films.words(path, way)], environment) for way, environment in ways
-             if films.content(path, way, environment) != expected]
+    wrong = []
+    for way, environment in ways:
+        command = shown(["mars", *films.words(path, way)], environment)
+        try:
+            if films.content(path, way, environment) != expected:
+                wrong.append(command)
+        except RuntimeError as failure:
+            wrong.append(f"{command}: {failure}")
     if any(word in PARTS for word in output(path)) and (frames := films.crops_differ(path)):
         wrong.append(f"{shown(['mars', *films.words(path, PLAIN)], {})} is no part of the whole picture in {', '.join(frames)}")
     return expected[0], wrong

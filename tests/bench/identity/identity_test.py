@@ -101,6 +101,25 @@ class Identity(unittest.TestCase):
         self.assertEqual(before[0], now[0])
         self.assertNotEqual(before[1], now[1])
 
+    def test_watchers_are_among_the_ways(self):
+        path = self.write_json(7)
+        ways = [identity.random_way(random.Random(seed), False, path)[0] for seed in range(FILMS)]
+        watched = [way for way in ways if "--watch" in way]
+        self.assertGreater(len(watched), FILMS // 10)
+        self.assertTrue(all(int(way["--nodes"]) > 1 and "--write" not in way for way in watched))
+
+    def test_a_watcher_has_the_last_frames_pixels(self):
+        way = {"--backend": "threads", "--nodes": "2", "--watch": str(self.films.folder / "watcher")}
+        for seed, as_it_is in ((7, True), (15, False), (21, True)):
+            path = self.write_json(seed)
+            self.assertEqual(identity.is_shown_as_it_is(path), as_it_is)
+            self.assertEqual(identity.compare(self.films, path, [(way, {})])[1], [])
+
+    def test_a_way_that_fails_is_told(self):
+        path = self.write_json(7)
+        _, (wrong,) = identity.compare(self.films, path, [({"--nodes": "0"}, {})])
+        self.assertIn(" --nodes 0: ", wrong)
+
     def test_films_are_alike_in_all_ways_and_others_are_told(self):
         for seed in (3, 6):
             path = self.films.write(seed)
