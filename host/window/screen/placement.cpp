@@ -86,7 +86,7 @@ void Placement::draw(std::span<const std::uint32_t> picture, const Area& area, s
   for (std::uint32_t x = area.x; x < area.x + area.width; ++x) columns.push_back({across_.from(x), across_.to(x)});
   for (std::uint32_t y = area.y; y < area.y + area.height; ++y) {
     const std::uint32_t first = down_.from(y), last = down_.to(y);
-    std::uint32_t* to = &window[std::size_t{y} * window_.width + area.x];
+    std::uint32_t* to = window.subspan(std::size_t{y} * window_.width + area.x, area.width).data();
     for (const Columns& each : columns) *to++ = mean(picture, picture_.width, each.from, each.to, first, last);
   }
 }

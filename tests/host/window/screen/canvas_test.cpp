@@ -39,6 +39,11 @@ TEST(Canvas, ReducesToMeans) {
   EXPECT_EQ(canvas_of({4, 2}, {2, 9}).pixels()[4 * 2 + 1], 6u) << "of 3, 4, 7 and 8, rounded";
 }
 
+TEST(Canvas, MayHaveNoColumns) {
+  EXPECT_TRUE(canvas_of({4, 2}, {0, 3}).pixels().empty());
+  EXPECT_TRUE(canvas_of({4, 2}, {3, 0}).pixels().empty());
+}
+
 TEST(Canvas, ShowsPixelsOneToOneWhereAPersonMovesThem) {
   Canvas canvas = canvas_of({6, 1}, {2, 1}, Zoom::one_to_one);
   EXPECT_EQ(canvas.pixels(), (Pixels{3, 4}));
