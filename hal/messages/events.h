@@ -37,6 +37,7 @@ class EventBuffer {
   // Halves of `capacity` events, in the time of `backend`, which outlives it; messages of `silent_type`,
   // which carry events, are not recorded.
   EventBuffer(const Backend& backend, std::size_t capacity, int silent_type);
+  EventBuffer(const Backend&&, auto&&...) = delete;
 
   void message(Event::Kind kind, double begin, const Envelope& envelope, std::uint32_t number);
   void span(int what, double begin, double end, std::uint64_t value);

@@ -15,6 +15,7 @@ class Heap {
  public:
   // Rank `index`'s; blocks that an earlier process of this rank has left in use stay so until they are given back.
   Heap(const Segment& segment, int index);
+  Heap(const Segment&&, auto&&...) = delete;
 
   // A block of at least `length` bytes and its length set. Throws Failure when the messages under way take
   // all the memory that they may.

@@ -21,6 +21,7 @@ class ProcessesBackend : public messages::Backend {
  public:
   // The rank whose slot is the `index`-th; `segment` outlives it. One a slot and time.
   ProcessesBackend(const Segment& segment, int index);
+  ProcessesBackend(const Segment&&, auto&&...) = delete;
 
   int rank() const override { return id(index_); }
   int nodes() const override { return segment_.header().cube; }

@@ -13,6 +13,7 @@ class Computers {
  public:
   // `machine` lasts.
   Computers(const Machine& machine, int nodes);
+  Computers(const Machine&&, auto&&...) = delete;
 
   // Of the nodes.
   int count() const { return (nodes_ + machine_.nodes - 1) / machine_.nodes; }

@@ -19,6 +19,7 @@ class Pace {
 
   // `machine` lasts. Of `computers` computers of nodes; the next number is that of the host, if it is apart.
   Pace(const Machine& machine, int computers);
+  Pace(const Machine&&, auto&&...) = delete;
 
   // When work is done that begins at `begin` and takes `seconds` on a computer of speed 1.
   double end(Processor processor, double begin, double seconds) const;

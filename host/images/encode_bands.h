@@ -1,6 +1,7 @@
 // Encodes the bands of frames' files (picture_bands.h), in any format.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,6 +20,7 @@ class FilePixels {
  public:
   // `drawn` outlives it.
   FilePixels(const PictureBands& bands, std::span<const std::uint32_t> drawn);
+  FilePixels(auto&&, std::same_as<std::vector<std::uint32_t>> auto&&) = delete;
 
   std::span<const std::uint32_t> words() const { return made_.empty() ? drawn_ : made_; }
 

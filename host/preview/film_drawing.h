@@ -32,6 +32,7 @@ class FilmDrawing {
  public:
   // `wireframe` must outlive it.
   explicit FilmDrawing(const Wireframe& wireframe);
+  explicit FilmDrawing(const Wireframe&&) = delete;
 
   // Not As::surface. What never moves is dim where something does. `pen`: pixels a line is wide. `ground`: a grid at
   // height 0 beneath it all, and the world's axes in the corner (x red, y green, z blue). Lines behind `covers` are

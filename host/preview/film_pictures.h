@@ -24,6 +24,7 @@ class FilmPictures : public Pictures {
  public:
   // Both must outlive it.
   FilmPictures(const Wireframe& wireframe, SurfaceSource& surface, const Look& look);
+  FilmPictures(const Wireframe&&, auto&&...) = delete;
 
   // What a person's hand changes, from the next picture on.
   void pose(Posed posed) { posed_ = std::move(posed); }

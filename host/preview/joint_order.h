@@ -14,6 +14,7 @@ class JointOrder {
   // Each joint before those below it. Figures that move in the film come first; figures that matrices move, and joints
   // without freedom, are left out.
   explicit JointOrder(const animator::Film& film);
+  explicit JointOrder(const animator::Film&&) = delete;
 
   bool empty() const { return joints_.empty(); }
   // The one after `from`, or with `by` -1 the one before, round and round; from none the first, or the last.

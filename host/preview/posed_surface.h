@@ -16,6 +16,8 @@ class PosedSurface : public SurfaceSource {
  public:
   // All must outlive it. A pose that is not empty belongs to a film that has a source.
   PosedSurface(Previewed& film, const PoseUnderWay& pose, const MakeSurface& make_surface);
+  PosedSurface(auto&&, const PoseUnderWay&&, auto&&...) = delete;
+  PosedSurface(auto&&, auto&&, const MakeSurface&&) = delete;
 
   void aim(images::PictureSize extent, const std::optional<wire::Camera>& camera,
            std::vector<std::uint32_t> frames) override;

@@ -22,6 +22,7 @@ class CountedWriter : public wire::FrameWriter {
   // For `node` of the world, whose platform is `platform`; both outlive it.
   CountedWriter(const images::PictureBands& bands, const experiments::Platform& platform, simulated::World& world,
                 int node);
+  CountedWriter(auto&&, const experiments::Platform&&, auto&&...) = delete;
 
   bool sees_folder() const override { return true; }
   std::uint32_t lines_of_band() const override { return bands_.lines_a_band(); }

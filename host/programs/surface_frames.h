@@ -19,6 +19,7 @@ class SurfaceFrames : public preview::SurfaceSource {
  public:
   // `film` must outlive it.
   explicit SurfaceFrames(const film::CompiledFilm& film) : film_(film) {}
+  explicit SurfaceFrames(const film::CompiledFilm&&) = delete;
   ~SurfaceFrames() override { stop(); }
 
   void aim(images::PictureSize extent, const std::optional<wire::Camera>& camera,

@@ -20,6 +20,7 @@ class Pieces {
   // folder, which the caller alone uses. Throws Failure where it cannot.
   Pieces(const Source& source, const Form& form, const Order& order, std::vector<std::string> encoding,
          const std::filesystem::path& work);
+  Pieces(const Source&&, auto&&...) = delete;
   Pieces(const Pieces&) = delete;
   Pieces& operator=(const Pieces&) = delete;
   ~Pieces();  // removes the folder where it has nothing

@@ -20,6 +20,7 @@ class SurfaceView {
  public:
   // `scene` outlives it.
   explicit SurfaceView(const Scene& scene) : scene_(scene) {}
+  explicit SurfaceView(const Scene&&) = delete;
 
   // The frame that the scene is at. `motion`: whether points have theirs.
   void set_frame(std::uint32_t frame, bool motion);

@@ -28,6 +28,7 @@ struct BandNeeds {
 class BandExchange {
  public:
   BandExchange(const raster::Neighbours& neighbours, const wire::FrameWriter& writer);
+  BandExchange(const raster::Neighbours&&, auto&&...) = delete;
 
   // Of the group, of which each node has pasted its home lines, so that the writer can finish its bands.
   void exchange_edges(const BandNeeds& needs, wire::FrameWriter& writer);

@@ -23,6 +23,8 @@ class Collectors {
     for (int node = first(); node < last(); ++node)
       if (contributes_[index(node)] == 1) collects_[index(neighbours_.head_of(node))] = 1;
   }
+  Collectors(const collectives::Group&&, auto&&...) = delete;
+  Collectors(auto&&, auto&&, const raster::Neighbours&&, auto&&...) = delete;
 
   int self() const { return static_cast<int>(mynode()); }
   int first() const { return group_.first; }

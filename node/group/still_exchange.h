@@ -26,6 +26,7 @@ struct StillNeeds {
 class StillExchange {
  public:
   StillExchange(const raster::Neighbours& neighbours, const raster::StillLines& still);
+  StillExchange(const raster::Neighbours&&, auto&&...) = delete;
 
   // Collective over the group, which has written its home lines to `still`. A contributor returns when all of its lines
   // are there.

@@ -19,6 +19,7 @@ class Outline {
  public:
   // In a picture of width x height pixels. `pattern` outlives it.
   Outline(const Corners& triangle, std::int32_t width, std::int32_t height, const shape::SamplePattern& pattern);
+  Outline(auto&&, auto&&, auto&&, const shape::SamplePattern&&) = delete;
 
   // Rows [first_row, last_row) may hold samples of the picture.
   std::int32_t first_row;

@@ -18,6 +18,7 @@ namespace mars::shadow {
 class GridCaster {
  public:
   explicit GridCaster(const ShadowKernels& kernels);
+  explicit GridCaster(const ShadowKernels&&) = delete;
 
   // Puts a hull on the grid: the box round surfaces within it.
   GridBox put(const LightView& view, const Hull& hull);

@@ -36,6 +36,7 @@ struct Touched {
 class Shafts {
  public:
   explicit Shafts(const ShadowKernels& kernels) : kernels_(kernels) {}
+  explicit Shafts(const ShadowKernels&&) = delete;
 
   // Shafts from the open points of layers to a light. `source`: of points of all samples (PairVectors without size).
   void begin(const LightViews& light, const PointSource& source, std::uint32_t pairs_a_sample,

@@ -27,6 +27,7 @@ struct Keys {
 
   constexpr Keys(std::string_view of, std::span<const std::string_view> names) : of(of), names(names) {}
   Keys(const keys::Object& object) : of(object.name), names(object.names), object(&object) {}
+  Keys(const keys::Object&&) = delete;
 };
 
 double read_number(const Element& element, Range range = {});

@@ -31,6 +31,7 @@ class FilmWriter {
  public:
   // Both must outlive it.
   FilmWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data);
+  FilmWriter(const animator::Film&&, auto&&...) = delete;
 
   void write_settings();  // and camera and lights
   // Without their motion. `data` has the shapes with the numbers `shapes`.

@@ -13,6 +13,7 @@ namespace mars::film {
 class MaterialWriter {
  public:
   MaterialWriter(const animator::Film& film, WrittenFrames frames, wire::FilmData& data);
+  MaterialWriter(const animator::Film&&, auto&&...) = delete;
 
   // The track of what a segment of the actor is made of, `name` being its own material ("": none). Throws if there is
   // no such material.

@@ -19,6 +19,7 @@ class JointMotions {
  public:
   // `rest`: how the file's nodes stand in each other while the model rests. All must outlive it.
   JointMotions(const MeshFile& model, const NodesInFilm& nodes, const std::vector<glm::dmat4>& rest);
+  JointMotions(auto&&, const NodesInFilm&&, auto&&...) = delete;
 
   const std::vector<modeler::Joint>& joints() const { return joints_; }
   std::size_t frames() const { return nodes_.frames(); }

@@ -17,6 +17,7 @@ class KeptImages {
  public:
   // `folder`: "rock-images", in which they will lie. `textures` outlives it.
   KeptImages(std::string folder, const SceneTextures& textures) : folder_(std::move(folder)), textures_(textures) {}
+  KeptImages(auto&&, const SceneTextures&&) = delete;
 
   // The file that the image of `texture` becomes: "rock-images/stone.png". None unless it is a PNG or JPEG file that
   // can be found.

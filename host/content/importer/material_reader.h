@@ -30,6 +30,7 @@ class MaterialReader {
         textures_(path, kind, scene),
         means_(textures_),
         images_(images_folder, textures_) {}
+  MaterialReader(auto&&, auto&&, const aiScene&&, auto&&...) = delete;
 
   // The number, among materials(), of what the mesh's material becomes; none where the file gives it none. Materials
   // that become the same are one.

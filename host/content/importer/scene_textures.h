@@ -26,6 +26,7 @@ class SceneTextures {
  public:
   SceneTextures(std::filesystem::path mesh, FileKind kind, const aiScene& scene)
       : mesh_(std::move(mesh)), kind_(kind), scene_(scene) {}
+  SceneTextures(auto&&, auto&&, const aiScene&&) = delete;
 
   // The picture that a material names `texture`: "*2" is a picture within the file, else it is a file's path. None
   // where it is not there, or no picture's file but colours of pixels.

@@ -18,6 +18,7 @@ class TextureMeans {
  public:
   // `textures` outlives it.
   explicit TextureMeans(const SceneTextures& textures) : textures_(textures) {}
+  explicit TextureMeans(const SceneTextures&&) = delete;
 
   // Of the picture that a material names `texture`. None where it cannot be read, which not_read() then lists.
   const std::optional<images::PictureMean>& mean_of(const std::string& texture);

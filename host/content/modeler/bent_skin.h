@@ -37,6 +37,7 @@ class BentSkin {
 std::uint32_t heaviest_bone(const VertexBones& point);
 // What the mean of a stencil follows: what the point of it does that weighs most.
 const VertexBones& followed_by(const ControlNet& net, std::uint32_t stencil);
+const VertexBones& followed_by(const ControlNet&&, std::uint32_t) = delete;
 
 // Where the matrix takes a point.
 glm::dvec3 placed(const wire::Matrix& matrix, const Mesh::Place& at);

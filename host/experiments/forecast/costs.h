@@ -13,6 +13,7 @@ namespace mars::forecast {
 class Costs {
  public:
   explicit Costs(const experiments::Platform& platform) : machine_(platform.machine) {}
+  explicit Costs(const experiments::Platform&&) = delete;
 
   // Seconds of so much work.
   double of(wire::Work kind, double units) const { return machine_.work[static_cast<std::size_t>(kind)] * units; }

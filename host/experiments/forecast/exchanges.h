@@ -25,6 +25,7 @@ class Exchanges {
         routes_(routes),
         costs_(costs),
         nodes_(static_cast<std::size_t>(nodes)) {}
+  Exchanges(auto&&, auto&&, auto&&, const Costs&&, auto&&...) = delete;
 
   // Node `n` of the group that begins at `first` takes these steps, then `then` happens. The steps outlive that.
   void begin(int n, int first, const Steps& steps, Clockwork::Action then);

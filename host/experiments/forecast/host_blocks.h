@@ -16,6 +16,7 @@ class HostBlocks {
  public:
   // Backgrounds are those of tasks, by number.
   HostBlocks(const FilmCounts& counts, std::uint32_t width, std::uint32_t height, double pixel_bytes);
+  HostBlocks(const FilmCounts&&, auto&&...) = delete;
 
   // A frame of the task begins in the buffer; other numbers than before are new buffers.
   void begin(std::size_t buffer, std::size_t task, std::size_t frame);

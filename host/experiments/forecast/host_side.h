@@ -47,6 +47,7 @@ class HostSide {
   HostSide(Clockwork& clockwork, simulated::Computers& computers, simulated::StorageUse& storage,
            const FilmCounts& counts, const farm::Plan& plan, const Setting& setting, const farm::HostMemory& memory,
            int nodes, Outward outward);
+  HostSide(auto&&, auto&&, auto&&, auto&&, const farm::Plan&&, auto&&...) = delete;
 
   // Of each task in order.
   void add_costs(HostCosts costs) { host_costs_.push_back(std::move(costs)); }

@@ -21,6 +21,7 @@ class FilmPictures : public PictureTaker {
  public:
   // All nodes are there.
   explicit FilmPictures(const FilmRun& run);
+  explicit FilmPictures(const FilmRun&&) = delete;
   // The first command goes out next.
   void begin();
 

@@ -17,6 +17,7 @@ class FilmWork : public WorkGiver {
  public:
   // Of the run that `pictures` are of.
   FilmWork(const FilmRun& run, FilmPictures& pictures);
+  FilmWork(const FilmRun&&, auto&&...) = delete;
 
   bool goes_on() const override { return wanted_ && pictures_.frames_left() > 0; }
   bool give_work() override;

@@ -69,6 +69,8 @@ std::span<const std::byte> bytes_of(const Part& part) {
   else
     return std::as_bytes(std::span(&part, 1));
 }
+template <typename Part>
+std::span<const std::byte> bytes_of(const Part&&) = delete;
 
 // Structs, and vectors of structs, one after another.
 template <typename... Parts>

@@ -21,6 +21,7 @@ class Replay {
  public:
   // `report` outlives it, and has each frame.
   explicit Replay(const farm::FarmReport& report);
+  explicit Replay(const farm::FarmReport&&) = delete;
 
   // Until the last frame was taken, without these walls.
   double seconds(walls::Walls without) const;

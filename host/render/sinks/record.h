@@ -25,6 +25,7 @@ class Record {
  public:
   // `object` must outlive it. Throws Failure where it is none.
   explicit Record(const nlohmann::json& object);
+  explicit Record(const nlohmann::json&&) = delete;
 
   void refuse_keys_but(std::span<const std::string_view> known) const;
 

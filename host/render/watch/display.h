@@ -14,6 +14,7 @@ class Display {
  public:
   // For frames of this format. The film outlives it.
   Display(const wire::PackedFilm& film, wire::PixelFormat format) : film_(film), format_(format) {}
+  Display(const wire::PackedFilm&&, auto&&...) = delete;
 
   // What comes is of this frame. Whether it is shown otherwise than the frame before.
   bool begin_frame(std::uint32_t frame);

@@ -27,6 +27,7 @@ class FilmPanorama {
  public:
   // Enters the folder. Throws Failure as resume::open(). Both must outlive it.
   FilmPanorama(const options::RenderOptions& options, Display& display);
+  FilmPanorama(const options::RenderOptions&&, auto&&...) = delete;
 
   bool is_there() const { return opened_.folder == nullptr; }
   // The options that draw the faces of the frames that are not there.

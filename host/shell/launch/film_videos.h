@@ -22,6 +22,7 @@ class FilmVideos {
   // Waits until no other process makes one of them. Throws Failure, before anything is started, where one of them
   // cannot be made (videos::check_order), or is the film. Both must outlive it.
   FilmVideos(const options::RenderOptions& options, Display& display);
+  FilmVideos(const options::RenderOptions&&, auto&&...) = delete;
 
   // Whether all are there, of this film, whose frames nobody asks for; then what processes that were killed have left
   // in their working folders is removed. May compile the film.

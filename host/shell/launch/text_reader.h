@@ -1,6 +1,7 @@
 // Reads what other programs wrote, from left to right and in time proportional to its length: any amount may come.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@ namespace mars::launch {
 class TextReader {
  public:
   explicit TextReader(std::string_view text) : rest_(text) {}
+  explicit TextReader(std::same_as<std::string> auto&&) = delete;
 
   bool at_end() const { return rest_.empty(); }
   // Goes behind the next occurrence of `words`; where there is none it stays.

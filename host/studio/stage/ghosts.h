@@ -25,6 +25,8 @@ class Ghosts {
  public:
   // Both must outlive it.
   Ghosts(const Project& project, const Moments& moments) : project_(project), moments_(moments) {}
+  Ghosts(const Project&&, auto&&...) = delete;
+  Ghosts(auto&&, const Moments&&) = delete;
 
   // Of the selected actor; where none is selected, of all that move. Back to front, then the trail. Made only where
   // something is another than the last time for the same view.

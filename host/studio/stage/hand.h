@@ -24,6 +24,7 @@ class Hand {
  public:
   // `project` must outlive it; the camera stays as it is at the beginning.
   Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse);
+  Hand(const Project&&, auto&&...) = delete;
 
   void take(const Grip& grip, RingAxes axes = RingAxes::numbers);
   // The limb there turns about its joint; where that cannot turn, about the nearest above that can. False: none can.

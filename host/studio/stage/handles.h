@@ -87,6 +87,7 @@ double ring_pixels(int axis);
 
 // The handle under the pixel that a hand would take.
 const Handle* handle_at(const std::vector<Handle>& handles, const glm::dvec2& pixel);
+const Handle* handle_at(const std::vector<Handle>&&, const glm::dvec2&) = delete;
 
 // As the page reads them: what is empty or false is left out. `hot`: the id under the mouse.
 Json described(const std::vector<Handle>& handles, const std::string& hot);

@@ -24,6 +24,8 @@ class LinePictures {
  public:
   // Both must outlive it.
   LinePictures(const Project& project, const Moments& moments) : project_(project), moments_(moments) {}
+  LinePictures(const Project&&, auto&&...) = delete;
+  LinePictures(auto&&, const Moments&&) = delete;
 
   // The moment as it is now.
   void draw(const LineLook& look, const wire::Camera& camera, preview::Drawing& drawing);

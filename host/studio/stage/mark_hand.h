@@ -14,6 +14,7 @@ class MarkHand {
   MarkHand(const Project& project, const Grip& grip, const MarkState& state, const Screen& screen,
            const glm::dvec2& mouse)
       : project_(project), grip_(grip), state_(state), mouse_(screen, mouse) {}
+  MarkHand(const Project&&, auto&&...) = delete;
 
   // The step that follows the mouse; nothing where none does.
   std::optional<Json> follow(const glm::dvec2& mouse, bool shift);

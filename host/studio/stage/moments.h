@@ -33,6 +33,7 @@ class Moments {
  public:
   // It must outlive it.
   explicit Moments(const Project& project) : project_(project) {}
+  explicit Moments(const Project&&) = delete;
 
   // Follows the project. A film that shows nothing at this frame leaves what was; `problem` then says why.
   void renew();

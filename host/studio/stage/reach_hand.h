@@ -27,6 +27,7 @@ class ReachHand {
             const Screen& screen, const glm::dvec2& mouse);
   ReachHand(const Project& project, const Selection& selection, std::vector<std::size_t> pins, const Grip& grip,
             const Screen& screen, const glm::dvec2& mouse);
+  ReachHand(const Project&&, auto&&...) = delete;
 
   // The step that follows the mouse; nothing where none does.
   std::optional<Json> follow(const glm::dvec2& mouse, bool shift);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,16 @@ std::vector<double> ends(const Machine& machine, int computers, double seconds) 
 Machine noisy(std::uint32_t seed, Lengths lengths) {
   return {.noise = {.seed = seed, .detours = 100, .detour = 1e-3, .lengths = lengths}};
 }
+
+// When work that begins at 0 ends, on a computer of a noisy machine.
+double end_on_noisy(std::uint32_t seed, Lengths lengths, double seconds, Pace::Processor processor = {0, 0},
+                    int computers = 1) {
+  const Machine machine = noisy(seed, lengths);
+  return Pace(machine, computers).end(processor, 0, seconds);
+}
+
+static_assert(!std::is_constructible_v<Pace, Machine, int> && std::is_constructible_v<Pace, Machine&, int>,
+              "it keeps a reference");
 
 TEST(Pace, IsEvenWhereNothingIsGiven) {
   const Machine even;
@@ -53,27 +64,27 @@ TEST(Pace, StragglersAreThePartThatIsGiven) {
 }
 
 // Each by itself would take for ever.
-TEST(Pace, VeryManyDetoursTakeTheirMean) {
-  EXPECT_DOUBLE_EQ(Pace(noisy(1, Lengths::exponential), 1).end({0, 0}, 0, 1e9), 1e9 / 0.9);
-}
+TEST(Pace, VeryManyDetoursTakeTheirMean) { EXPECT_DOUBLE_EQ(end_on_noisy(1, Lengths::exponential, 1e9), 1e9 / 0.9); }
 
 // Work of 10 s ends once it has got them: a tenth of the time is the system's.
 TEST(Pace, DetoursLengthenWorkByTheirPart) {
   for (const Lengths lengths : {Lengths::fixed, Lengths::exponential}) {
-    const Pace pace(noisy(1, lengths), 4);
+    const Machine machine = noisy(1, lengths);
+    const Pace pace(machine, 4);
     for (const int computer : {0, 3}) EXPECT_NEAR(pace.end({computer, 0}, 5, 10), 5 + 10 / 0.9, 0.2);
   }
 }
 
 TEST(Pace, FixedDetoursAreAllAsLong) {
-  const double spent = Pace(noisy(1, Lengths::fixed), 1).end({0, 0}, 0, 1) - 1;
+  const double spent = end_on_noisy(1, Lengths::fixed, 1) - 1;
   EXPECT_NEAR(spent / 1e-3, std::round(spent / 1e-3), 1e-6);
-  const double exponential = Pace(noisy(1, Lengths::exponential), 1).end({0, 0}, 0, 1) - 1;
+  const double exponential = end_on_noisy(1, Lengths::exponential, 1) - 1;
   EXPECT_GT(std::abs(exponential / 1e-3 - std::round(exponential / 1e-3)), 1e-3);
 }
 
 TEST(Pace, PiecesOfWorkEndWhenTheWholeDoes) {
-  const Pace pace(noisy(3, Lengths::exponential), 1);
+  const Machine machine = noisy(3, Lengths::exponential);
+  const Pace pace(machine, 1);
   double end = 2;
   for (int piece = 0; piece < 1000; ++piece) end = pace.end({0, 0}, end, 1e-3);
   EXPECT_NEAR(end, pace.end({0, 0}, 2, 1), 1e-9);
@@ -81,7 +92,7 @@ TEST(Pace, PiecesOfWorkEndWhenTheWholeDoes) {
 
 TEST(Pace, DetoursOfSeedsComputersAndProcessorsDiffer) {
   const auto end = [](std::uint32_t seed, Pace::Processor processor) {
-    return Pace(noisy(seed, Lengths::exponential), 2).end(processor, 0, 1);
+    return end_on_noisy(seed, Lengths::exponential, 1, processor, 2);
   };
   EXPECT_EQ(end(1, {0, 0}), end(1, {0, 0}));
   for (const auto& [seed, processor] : {std::pair{2u, Pace::Processor{0, 0}}, {1u, {1, 0}}, {1u, {0, 1}}})

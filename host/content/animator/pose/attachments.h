@@ -15,6 +15,7 @@ inline constexpr std::size_t kLongestChain = 1000;
 
 // Null where the actor stands by its own keys.
 const Attachment* attachment_at(const Actor& actor, std::uint32_t frame);
+const Attachment* attachment_at(const Actor&&, std::uint32_t) = delete;
 
 // Throws Failure if something carries the actor at the frame: numbers of its place and turn then mean another frame of
 // reference. `where`: of the message.

@@ -41,6 +41,8 @@ class JointMotion {
  public:
   // Both must outlive it. `poses` may be empty.
   JointMotion(const modeler::Joint& joint, const Channel<glm::dvec3>& poses);
+  JointMotion(const modeler::Joint&&, auto&&...) = delete;
+  JointMotion(auto&&, const Channel<glm::dvec3>&&) = delete;
 
   glm::dmat3 at(std::uint32_t frame);
 
@@ -68,6 +70,7 @@ class JointMotion {
 class OwnFrame {
  public:
   explicit OwnFrame(const FigureMotion& motion);  // must outlive it
+  explicit OwnFrame(const FigureMotion&&) = delete;
 
   modeler::Axes at(std::uint32_t frame);
 
@@ -81,6 +84,8 @@ class Figure {
  public:
   // Both must outlive it.
   Figure(const modeler::Model& model, const FigureMotion& motion);
+  Figure(const modeler::Model&&, auto&&...) = delete;
+  Figure(auto&&, const FigureMotion&&) = delete;
 
   // Where its own keys place it, or where it is carried to. True if any joint now stands elsewhere than at the frame
   // before.

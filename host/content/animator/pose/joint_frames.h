@@ -17,6 +17,7 @@ namespace mars::animator {
 class JointFrames {
  public:
   explicit JointFrames(const Film& film) : film_(film) {}  // must outlive it
+  explicit JointFrames(const Film&&) = delete;
 
   // Of an actor that no matrices move.
   modeler::Axes root_of(std::size_t actor, std::uint32_t frame);

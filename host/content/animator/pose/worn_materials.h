@@ -19,12 +19,15 @@ struct WornMaterial {
 class WornMaterials {
  public:
   explicit WornMaterials(const Film& film);  // which must outlive it
+  explicit WornMaterials(const Film&&) = delete;
 
   // Of a segment of the actor whose model names `material` ("": none); nothing if no such material is there.
   std::optional<WornMaterial> of(const Actor& actor, const std::string& material) const;
 
   // What the film or the model is then to have by that name.
   static const std::string& name_of(const Actor& actor, const std::string& material);
+  static const std::string& name_of(const Actor&&, auto&&) = delete;
+  static const std::string& name_of(auto&&, const std::string&&) = delete;
 
  private:
   const Film& film_;

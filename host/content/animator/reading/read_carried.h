@@ -17,6 +17,8 @@ namespace mars::animator {
 class Carriers {
  public:
   Carriers(const std::vector<Actor>& actors, const std::vector<modeler::Model>& models);  // which must outlive it
+  Carriers(const std::vector<Actor>&&, auto&&...) = delete;
+  Carriers(auto&&, const std::vector<modeler::Model>&&) = delete;
 
   // "actor" and, where it is given, "joint" of the object.
   struct Named {

@@ -31,6 +31,7 @@ std::vector<glm::dmat4> rest_of_nodes(const GltfScene& scene, const FilmClock& c
 class NodesInFilm {
  public:
   NodesInFilm(const GltfScene& scene, const FilmClock& clock, const glm::dmat3& upright, double factor);
+  NodesInFilm(const GltfScene&&, auto&&...) = delete;
 
   std::size_t frames() const { return clock_.frames; }
   std::vector<glm::dmat4> at(std::size_t frame) const;

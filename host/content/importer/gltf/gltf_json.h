@@ -25,9 +25,11 @@ Tree gltf_json(std::string_view bytes);
 
 // What `tree` has under `key`; null where it is no object or has none.
 const Tree& at(const Tree& tree, const char* key);
+const Tree& at(const Tree&&, const char*) = delete;
 
 // Item `index` of a list; null where there is none.
 const Tree& item(const Tree& list, const Tree& index);
+const Tree& item(const Tree&&, auto&&) = delete;
 
 std::size_t number(const Tree& tree, std::size_t otherwise);
 

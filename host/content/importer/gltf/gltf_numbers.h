@@ -1,6 +1,7 @@
 // The numbers of a glTF file's accessors, read without Assimp, which keeps single precision and passes over much.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -26,6 +27,8 @@ class GltfBuffers {
   // Of a file with these bytes and this JSON. `whose` numbers failures speak of.
   GltfBuffers(const std::filesystem::path& path, std::string_view bytes, const Tree& gltf,
               std::string whose = "an animation");
+  GltfBuffers(auto&&, auto&&, const Tree&&, auto&&...) = delete;
+  GltfBuffers(auto&&, std::same_as<std::string> auto&&, auto&&...) = delete;
 
   // Accessor `index`: floats, or whole numbers that stand for -1 to 1 (glTF 2.0, 3.6.2.2). Refuses what is not within
   // its buffer, in a failure that names the file and the accessor. Sparse ones come with what replaces their numbers.

@@ -1,6 +1,7 @@
 // The words of a text file of motions (BVH, ASF, AMC), each with its line: what is wrong is one Failure at FILE:LINE.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@ class MotionWords {
  public:
   // `text` must outlive it. Words end at white space and at the characters of `marks`, which are words themselves.
   MotionWords(std::string_view text, std::string file, std::string_view marks);
+  MotionWords(std::same_as<std::string> auto&&, auto&&...) = delete;
 
   bool at_end();            // of the file
   bool at_line_end();       // of the line of the last word, or of the file

@@ -24,6 +24,7 @@ class PovValues {
  public:
   // `text` must outlive this.
   explicit PovValues(const PovText& text) : text_(text), words_(text.words) {}
+  explicit PovValues(const PovText&&) = delete;
 
   const PovWord& peek(std::size_t ahead = 0) const { return words_[std::min(place_ + ahead, words_.size() - 1)]; }
   const PovWord& take();

@@ -1,6 +1,7 @@
 // Requests of RIB in text: a name and its arguments.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@ class RibWords {
  public:
   // `name` is what failures name, with the line.
   RibWords(std::string_view file, std::string name) : rest_(file), name_(std::move(name)) {}
+  RibWords(std::same_as<std::string> auto&&, auto&&) = delete;
 
   // None at the end of the file.
   std::optional<RibRequest> next();

@@ -39,7 +39,10 @@ farm::FarmReport two_frames() {
   return report;
 }
 
-TEST(Replay, TakesAsLongAsTheRun) { EXPECT_DOUBLE_EQ(Replay(two_frames()).seconds({}), 14); }
+TEST(Replay, TakesAsLongAsTheRun) {
+  const farm::FarmReport report = two_frames();
+  EXPECT_DOUBLE_EQ(Replay(report).seconds({}), 14);
+}
 
 TEST(Replay, LeavesOutMessagesAndKeepsWaiting) {
   const farm::FarmReport report = two_frames();

@@ -12,6 +12,7 @@ class Crouch {
  public:
   // Of a body as it stands; one that sits, or whose legs have no knees, bends its trunk alone.
   Crouch(const Body& body, const Posture& start, const std::string& where);
+  Crouch(const Body&&, auto&&...) = delete;
 
   // From 0, as it stood, to 1, as low as it gets; the trunk twisted to the left, in degrees. Arms
   // hang from it, otherwise as they were. `posture` is that of the moment before, or any. Throws where feet cannot

@@ -61,6 +61,7 @@ class Going {
  public:
   // `pace` in steps a second, where the script gives none.
   Going(const Scene& scene, const char* command, double pace);
+  Going(const Scene&&, auto&&...) = delete;
 
   Stance now() const { return stance_of(body_, postures_.back()); }
   const Body& body() const { return body_; }

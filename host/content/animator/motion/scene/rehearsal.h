@@ -11,6 +11,7 @@ namespace mars::motion {
 class Rehearsal {
  public:
   explicit Rehearsal(const Scene& scene);  // which must outlive it
+  explicit Rehearsal(const Scene&&) = delete;
 
   const animator::Film& film() const { return film_; }
   std::uint32_t at() const { return at_; }  // where the figure's next action begins
