@@ -8,6 +8,7 @@ import {clamped, colorOf, hexOf, read, written} from "./numbers.js";
 const kSettled = 400;      // ms after the last key: a change by keys is done
 const kAllDigits = 6;
 const kPixelsPerStep = 4;  // of a drag on a number's letter
+const kNoNumber = "Write a number or an expression, such as 12.5+3*2, or a change of what was there, such as +=10.";
 
 // Keys make many small changes: they are one gesture until they pause.
 class Settling {
@@ -29,7 +30,8 @@ class Settling {
 }
 
 // A number to write, to step with arrows, to drag by its letter. `name` is for screen readers, `letter` is shown. All its
-// digits show only while somebody writes it. Without a number (null) it shows the hint.
+// digits show only while somebody writes it. Without a number (null) it shows the hint. Enter and Escape leave it: keys are
+// the page's again.
 export function numberField({name, letter = "", axis = letter, unit = "", step = 0.1, least, most, digits = 3, hint, key, preview, commit, cancel}) {
   const input = element("input", {type: "text", inputmode: "decimal", placeholder: hint, role: "spinbutton", "aria-label": name, autocomplete: "off",
                                   spellcheck: "false", "data-key": key, "aria-valuemin": least, "aria-valuemax": most});
@@ -39,7 +41,13 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
   let value = 0, held = null;
 
   const textOf = (number, places) => number === null ? "" : written(number, places);
+  const isWrong = () => input.validity.customError;
+  const judge = (isNumber) => {
+    input.setAttribute("aria-invalid", String(!isNumber));
+    input.setCustomValidity(isNumber ? "" : kNoNumber);
+  };
   const show = (number) => {
+    judge(true);
     input.value = textOf(number, document.activeElement === input ? kAllDigits : digits);
     input.setAttribute("aria-valuenow", input.value);
   };
@@ -68,27 +76,28 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
     input.select();
   });
   input.addEventListener("input", (event) => {
-    const number = read(input.value);
-    input.setAttribute("aria-invalid", String(number === null));
+    const number = read(input.value, value);
+    judge(number !== null);
     settling.drop();
     if (number === null) return;
     held = clamped(number, least, most);
     preview?.(held, event);
   });
   input.addEventListener("blur", (event) => {
-    input.removeAttribute("aria-invalid");
-    done(event);
+    if (isWrong()) giveUp();
+    else done(event);
+    judge(true);
     input.value = textOf(value, digits);
   });
   input.addEventListener("keydown", (event) => {
     const direction = {ArrowUp: 1, ArrowDown: -1}[event.key];
     if (event.key === "Enter") {
-      done(event);
-      show(value);
-      input.select();
+      if (input.reportValidity()) input.blur();
     } else if (event.key === "Escape") {
-      if (held === null) return;
+      const isChanged = isHeld() || isWrong();
       giveUp();
+      input.blur();
+      if (!isChanged) return;
     } else if (direction) {
       change((held ?? value) + direction * step * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), event);
       settling.later(done);

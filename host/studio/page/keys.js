@@ -13,12 +13,13 @@ export function pressed({key, ctrlKey, metaKey, altKey, shiftKey}) {
 
 const kOwnKeys = new Set(["Space", "Enter", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"]);
 
-function where(target) {
+// Keys that no control hears are those of the active view.
+function where(target, state) {
   if (target.closest("dialog, .menu, .popover")) return {shut: true};
   const text = target.matches("input:not([type=range], [type=checkbox], [type=color]), textarea");
   return {
     text,
-    view: target.closest(".view .picture") !== null,
+    view: target.closest(".view .picture") !== null || (target === document.body && state.workspace === "scene"),
     timeline: target.closest("#timeline") !== null,
     list: target.closest("select") !== null,
     control: target.matches("button, input, select, a[href], [role=tab]"),
@@ -42,7 +43,7 @@ export class Keys {
     addEventListener("keydown", (event) => {
       if (event.defaultPrevented) return;
       const keys = pressed(event);
-      const place = where(event.target);
+      const place = where(event.target, state);
       const held = kShortcuts.filter((each) => each.keys.includes(keys) && holds(each, keys, place) &&
                                                  (!each.film || state.isFilm()));
       const shortcut = held.find(({at}) => at === "timeline") ?? held[0];

@@ -7,11 +7,42 @@ export function written(number, digits = 4) {
   return short === "-0" ? "0" : short;
 }
 
-// Null where it is no number. A comma is a point.
-export function read(text) {
-  const plain = text.trim().replace(",", ".").replace("\u2212", "-");
-  if (!/^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i.test(plain)) return null;
-  return Number(plain);
+// The value of a number, or of an expression of numbers with + - * / and parentheses; null where it is neither. A comma is
+// a point. +=, -=, *= and /= at the beginning change the number that was there `before`.
+export function read(text, before = null) {
+  const [, change, rest] = /^\s*(?:([-+*/])=)?(.*)$/s.exec(text.replaceAll(",", ".").replaceAll("\u2212", "-"));
+  if (!change) return valueOf(rest);
+  return before === null || valueOf(rest) === null ? null : valueOf(`(${before})${change}(${rest})`);
+}
+
+// Twelve digits: 0.1 + 0.2 is 0.3.
+function valueOf(expression) {
+  const tokens = expression.match(/(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|\S/gi) ?? [];
+  const value = sum(tokens);
+  return tokens.length === 0 && Number.isFinite(value) ? Number(value.toPrecision(12)) : null;
+}
+
+// These take what they read from the front of the tokens; what is no number there is NaN.
+
+function sum(tokens) {
+  let value = product(tokens);
+  while ("+-".includes(tokens[0] ?? "end")) value += tokens.shift() === "+" ? product(tokens) : -product(tokens);
+  return value;
+}
+
+function product(tokens) {
+  let value = factor(tokens);
+  while ("*/".includes(tokens[0] ?? "end")) value = tokens.shift() === "*" ? value * factor(tokens) : value / factor(tokens);
+  return value;
+}
+
+function factor(tokens) {
+  const token = tokens.shift();
+  if (token === "-") return -factor(tokens);
+  if (token === "+") return factor(tokens);
+  if (token !== "(") return Number(token);
+  const value = sum(tokens);
+  return tokens.shift() === ")" ? value : NaN;
 }
 
 export const clamped = (number, least = -Infinity, most = Infinity) => Math.min(most, Math.max(least, number));

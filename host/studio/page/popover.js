@@ -46,7 +46,7 @@ export function askNumbers(anchor, title, hint, numbers, apply) {
     if (event.key !== "Enter" || !event.target.matches("input")) return;
     event.stopPropagation();
     event.preventDefault();
-    done(event);
+    if (form.reportValidity()) done(event);
   }, true);  // before the number that has the focus
   const root = openPopover(anchor, title, form);
   root.querySelector("input").focus();

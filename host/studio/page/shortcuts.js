@@ -1,6 +1,6 @@
 // All shortcuts, in one table: keys.js acts on it, help.js lists it, menus and tips name its keys.
 //
-// `at`: where they hold: "page" (not while text is written), "always" (also then), "view" (a view has the focus),
+// `at`: where they hold: "page" (not while text is written), "always" (also then), "view" (a view has the focus, or nothing has),
 // "timeline" (it has the focus; before those of the page), "tree". Letters at "page" leave alone lists of choices, where
 // letters find an entry. `film`: in films only.
 
@@ -66,8 +66,8 @@ export const kShortcuts = [
   {group: "Tree of joints", keys: ["/"], name: "find", text: "Find by the first letters", at: "page"},
 
   {group: "Numbers", keys: ["ArrowUp", "ArrowDown"], text: "One step; with Shift ten, with Alt a tenth", at: "number"},
-  {group: "Numbers", keys: ["Enter"], text: "Done", at: "number"},
-  {group: "Numbers", keys: ["Escape"], text: "As it was", at: "number"},
+  {group: "Numbers", keys: ["Enter"], text: "Done: keys are the view's again", at: "number"},
+  {group: "Numbers", keys: ["Escape"], text: "As it was: keys are the view's again", at: "number"},
 ];
 
 // What mice do; in the help sheet only.

@@ -4,6 +4,7 @@ chromium-driver, python3-selenium and python3-websockets."""
 import base64
 import contextlib
 import functools
+import math
 import pathlib
 import re
 import struct
@@ -324,6 +325,26 @@ class Controls(Page):
         self.assertAlmostEqual(changed[3], thigh["sbb"][1][0] + 0.2)
         self.assertEqual(changed[:3], thigh["sbb"][0])
 
+    def test_numbers_are_expressions_and_changes_of_what_was_there(self):
+        self.select("left-thigh")
+        for text, value in (("-16.67-10", -26.67), ("+40", 40), ("2*(0,5+1)/3", 1), ("+=0.5", 1.5), ("*=2-4", -3)):
+            with self.subTest(text):
+                self.studio.forget()
+                self.type('[data-key="place.y"]', Keys.CONTROL, "a", Keys.NULL, text, Keys.ENTER)
+                self.assertEqual(numbers(self.commit("model set left-thigh"), "--place")[1], value)
+
+    def test_what_is_no_number_is_not_taken_and_the_reason_is_said(self):
+        self.select("left-thigh")
+        field = '[data-key="place.y"]'
+        before = self.find(field).get_attribute("value")
+        self.type(field, Keys.CONTROL, "a", Keys.NULL, "12*", Keys.ENTER)
+        self.assertEqual(self.js("const {value, validationMessage} = document.activeElement; return [value, validationMessage.slice(0, 37)]"),
+                         ["12*", "Write a number or an expression, such"])
+        self.assertEqual(self.heard("commit"), [])
+        self.press(Keys.ESCAPE)
+        self.studio.wait_for("cancel")
+        self.assertEqual([self.find(field).get_attribute("value"), self.heard("commit")], [before, []])
+
     def test_numbers_written_before_the_answer_to_those_before_are_kept(self):
         self.select("left-thigh")  # the stand-in answers with the project as it was: the studio's slowest
         self.js("performance.now = () => 0")  # nothing that was written waits for too long
@@ -631,6 +652,23 @@ class Films(Page):
         self.chord(Keys.SPACE)
         self.studio.wait_for("frame", count=5)  # it plays by the clock, whatever is left out
         self.chord(Keys.SPACE)
+
+    def test_after_a_number_keys_are_the_views_again(self):
+        for end, frames in ((Keys.ENTER, [7, 8]), (Keys.ESCAPE, [9])):
+            with self.subTest(frames=frames):
+                self.studio.forget()
+                self.type('[data-key="frame"]', Keys.CONTROL, "a", Keys.NULL, "7", end)
+                self.press(Keys.ARROW_LEFT)
+                self.studio.wait_for("orbit", view=0, how="turn", moving=True)
+                self.press("s")
+                self.studio.wait_for("view", view=0)
+                self.press(".")
+                self.assertEqual([each["frame"] for each in self.heard("frame")], frames)
+        self.chord(Keys.F9)
+        self.studio.forget()
+        self.js("document.activeElement.blur()")
+        self.press(Keys.ARROW_LEFT)
+        self.assertEqual(self.heard("orbit"), [])  # no view shows
 
     def test_steps_name_their_actor_and_keys_show(self):
         self.click("[data-key=watcher] .twist")

@@ -2,13 +2,19 @@
 
 import {element} from "../../dom.js";
 import {choice, line, part} from "../../fields.js";
+import {read, written} from "../../numbers.js";
 
 const kFronts = [["", "as is usual"], ...["x", "-x", "y", "-y", "z", "-z"].map((axis) => [axis, `the file's ${axis}`])];
 
 export function importPart({importer}) {
   const {options} = importer;
+  const take = () => {
+    const number = read(height.value);
+    if (number !== null) height.value = written(number, 6);
+    options.height = height.value.trim();
+  };
   const height = element("input", {type: "text", inputmode: "decimal", "aria-label": "Height of what is imported", "data-key": "import.height",
-                                   placeholder: "as in the file", autocomplete: "off", onchange: () => { options.height = height.value.trim(); }});
+                                   placeholder: "as in the file", autocomplete: "off", onchange: take});
   height.value = options.height;
   const front = choice({name: "Where what is imported looks to", key: "import.front", options: kFronts,
                         commit: (value) => { options.front = value ?? ""; }});
