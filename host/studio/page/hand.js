@@ -7,13 +7,16 @@ const kPerKey = 14;          // pixels of a mouse, for one press of an arrow
 const kPerLine = 16;         // of wheels that count lines
 const kStill = 3;            // pixels: a press that moves less is a click
 const kRestAfter = 160;      // ms without a wheel's or key's turn: the eye rests
+const kPerE = 1 / 0.0015;    // pixels of a wheel that make the distance e times as long (host/studio/stage/eye.cpp)
+const kPinched = kPerE / 100;  // of a trackpad, whose pinch by a factor e browsers call 100 pixels of a wheel with Ctrl
 
 const keysHeld = (event) => ["shift", "ctrl", "alt"].filter((key) => event[`${key}Key`]);
 const joinOrbits = (before, now) => before.how === now.how
   ? {...now, by: [before.by[0] + now.by[0], before.by[1] + now.by[1]]} : now;
 
 export class Hand {
-  #gesture = null;  // {kind: "asked" | "drag" | "orbit", how, empty, began, last, newest, up}
+  #gesture = null;  // {kind: "asked" | "drag" | "orbit", how, empty, began, last, newest, up, spread: between two fingers}
+  #fingers = new Map();  // of each pointer that is down its last event
   #rest = 0;
 
   constructor(view, {connection, pace, state, edits}) {
@@ -23,7 +26,10 @@ export class Hand {
     picture.addEventListener("pointermove", (event) => this.#move(event));
     picture.addEventListener("pointerup", (event) => this.#up(event));
     // Also after a release, whose grab may still wait for its answer.
-    picture.addEventListener("lostpointercapture", () => { if (!this.#gesture?.up) this.letGo(); });
+    picture.addEventListener("lostpointercapture", ({pointerId}) => {
+      this.#fingers.delete(pointerId);
+      if (!this.#gesture?.up) this.letGo();
+    });
     picture.addEventListener("pointerleave", () => view.showTip(""));
     picture.addEventListener("wheel", (event) => this.#wheel(event), {passive: false});
     picture.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -76,10 +82,12 @@ export class Hand {
   }
 
   #down(event) {
+    this.#fingers.set(event.pointerId, event);
+    this.view.picture.setPointerCapture(event.pointerId);
+    if (this.#fingers.size === 2) this.#pinch();
     if (this.#gesture) return;
     event.preventDefault();
     this.view.picture.focus({preventScroll: true});
-    this.view.picture.setPointerCapture(event.pointerId);
     this.view.showTip("");
     const how = howToOrbit(event);
     this.#gesture = {kind: how ? "orbit" : "asked", how, began: event, last: event};
@@ -89,7 +97,14 @@ export class Hand {
                    falloff: this.state.falloff}, event);
   }
 
+  // What the first finger had begun leaves no trace.
+  #pinch() {
+    this.letGo();
+    this.#gesture = {kind: "orbit", spread: spreadOf(...this.#fingers.values())};
+  }
+
   #move(event) {
+    if (this.#fingers.has(event.pointerId)) this.#fingers.set(event.pointerId, event);
     if (!this.#gesture) return this.#hover(event);
     if (this.#gesture.kind === "asked") this.#gesture.newest = event;
     else this.#follow(event);
@@ -101,9 +116,17 @@ export class Hand {
       this.pace.send("drag", {do: "drag", ...this.view.spot(event), keys: keysHeld(event)}, event);
       return;
     }
+    if (gesture.spread) return this.#followFingers(gesture, event);
     const by = [event.clientX - gesture.last.clientX, event.clientY - gesture.last.clientY].map((part) => part * devicePixelRatio);
     gesture.last = event;
     if (by[0] !== 0 || by[1] !== 0) this.#orbit(gesture.how, by, event);
+  }
+
+  #followFingers(gesture, event) {
+    const [one, other] = this.#fingers.values(), spread = spreadOf(one, other), before = gesture.spread;
+    gesture.spread = spread;
+    const middle = {clientX: (one.clientX + other.clientX) / 2, clientY: (one.clientY + other.clientY) / 2};
+    this.#orbit("zoom", [0, kPerE * Math.log(before / spread)], event, this.view.spot(middle));
   }
 
   #up(event) {
@@ -130,7 +153,7 @@ export class Hand {
   #wheel(event) {
     event.preventDefault();
     this.state.set("activeView", this.view.number);
-    const by = event.deltaY * [1, kPerLine, this.view.size[1]][event.deltaMode];
+    const by = event.deltaY * [event.ctrlKey ? kPinched : 1, kPerLine, this.view.size[1]][event.deltaMode];
     this.#orbit("zoom", [0, by], event, this.view.spot(event));
     this.#restSoon();
   }
@@ -154,6 +177,8 @@ export class Hand {
 
   #look(gesture) { this.view.picture.dataset.gesture = gesture; }
 }
+
+const spreadOf = (one, other) => Math.max(1, Math.hypot(one.clientX - other.clientX, one.clientY - other.clientY));
 
 const isClick = (from, to) => Math.hypot(to.clientX - from.clientX, to.clientY - from.clientY) < kStill;
 

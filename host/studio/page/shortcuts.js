@@ -76,7 +76,7 @@ export const kHands = [
   {group: "Mouse in a view", keys: ["Right drag", "Shift+Left drag"], text: "Pan"},
   {group: "Mouse in a view", keys: ["Middle drag", "Alt+Left drag"], text: "Orbit, whatever is there"},
   {group: "Mouse in a view", keys: ["Shift+Middle drag"], text: "Pan"},
-  {group: "Mouse in a view", keys: ["Wheel"], text: "Zoom at the mouse"},
+  {group: "Mouse in a view", keys: ["Wheel", "Pinch"], text: "Zoom at the mouse, between the fingers"},
   {group: "Mouse in a view", keys: ["Double click"], text: "On a view's title: maximise it, and back. On a model's joint in the tree: rename it"},
   {group: "Mouse in a view", keys: ["Drag"], text: "On the letter before a number: change it"},
 

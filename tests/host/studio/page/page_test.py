@@ -258,6 +258,37 @@ class Hands(Page):
         self.studio.wait_for("orbit", view=3, how="turn")
         self.assertEqual(self.heard("grab"), [])
 
+    def touch(self, kind, *places):
+        points = [{"id": number, "x": x, "y": y} for number, (x, y) in enumerate(places)]
+        self.browser.command("Input.dispatchTouchEvent", type=kind, touchPoints=points)
+
+    def test_fingers_that_pinch_zoom_between_them(self):
+        self.studio.there = lambda grab: {"actor": "model", "joint": "left-thigh", "handle": None}
+        at = self.find(picture(3)).rect
+        x, y = at["x"] + at["width"] / 2, at["y"] + at["height"] / 2
+        self.touch("touchStart", (x - 20, y))
+        self.touch("touchStart", (x - 20, y), (x + 20, y))
+        self.studio.wait_for("let_go")  # what one finger had begun
+        for spread in (24, 32, 40):
+            self.touch("touchMove", (x - spread, y), (x + spread, y))
+        self.touch("touchEnd", (x - 40, y))
+        self.touch("touchMove", (x + 30, y + 30))
+        self.touch("touchEnd")
+        self.studio.wait_for("orbit", view=3, moving=False)
+        orbits = [each for each in self.heard("orbit") if each["moving"]]
+        self.assertEqual({each["how"] for each in orbits}, {"zoom"})
+        self.assertAlmostEqual(math.exp(0.0015 * sum(each["by"][1] for each in orbits)), 0.5, places=3)  # twice as large
+        view = self.studio.views[3]
+        self.assertAlmostEqual(orbits[-1]["x"], view["width"] / 2, delta=1)
+        self.assertEqual(self.heard("drag") + self.heard("drop"), [])
+
+    def test_a_pinch_of_a_trackpad_zooms_as_far_as_the_fingers(self):
+        at = self.find(picture(3)).rect
+        self.browser.command("Input.dispatchMouseEvent", type="mouseWheel", x=at["x"] + 50, y=at["y"] + 50, deltaX=0,
+                             deltaY=-100 * math.log(2), modifiers=2)
+        zoom = self.studio.wait_for("orbit", view=3, how="zoom", moving=True)
+        self.assertAlmostEqual(math.exp(0.0015 * zoom["by"][1]), 0.5, delta=0.01)
+
     def test_a_click_on_empty_space_selects_nothing(self):
         self.select("head")
         self.click(picture())
