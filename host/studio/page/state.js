@@ -1,5 +1,5 @@
 // What the page knows: the project as the studio sent it, and what is selected here. Others listen to what concerns
-// them: "project", "poses", "selected", "tool", "axes", "view" (the active one), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
+// them: "project", "poses", "selected", "tool", "axes", "view" (the active one), "shown" (by a view), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
 // "curves", "ghosts", "marks", "falloff", "pins".
 
 // What rings turn about, and how people read it.

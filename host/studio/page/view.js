@@ -52,10 +52,12 @@ export class View {
     Object.assign(this.shown, change);
     this.#name();
     this.ask(event);
+    this.state.tell("shown");
   }
 
   // Says all there is to this view; also what a studio that has just started needs.
   ask(event) {
+    if (!this.state.project) return;
     const [width, height] = this.size = this.#fitting();
     if (width === 0 || height === 0) return;
     const {from, orbit, as, hidden, ground, handles} = this.shown;
@@ -87,10 +89,12 @@ export class View {
   // Who turns the film's camera's view leaves it.
   takeOrbit({center, turn, height, distance}) {
     this.shown.orbit = {center, turn, height, distance};
-    if (this.shown.from !== "camera") return;
-    this.shown.from = "free";
-    this.#name();
-    this.refit();
+    if (this.shown.from === "camera") {
+      this.shown.from = "free";
+      this.#name();
+      this.refit();
+    }
+    this.state.tell("shown");
   }
 
   takeHandles({picture, shapes}) {

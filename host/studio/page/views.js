@@ -2,6 +2,7 @@
 
 import {Hand} from "./hand.js";
 import {setIcon} from "./icons.js";
+import {Kept} from "./kept.js";
 import {kDisplays, View} from "./view.js";
 
 const kFroms = ["front", "side", "top", "free"];
@@ -15,6 +16,7 @@ export class Views {
     this.hands = this.views.map((view) => new Hand(view, parts));
     for (const view of this.views) this.#add(view, painter);
     this.#listen(parts);
+    new Kept(this.views, parts);  // brings back what views show before they ask for it
     this.state.on("view", () => this.#showActive());
     this.state.on("project", () => this.views.forEach((view) => view.refit()));
     this.state.on("tool axes ghosts marks", () => this.views.forEach((view) => view.ask()));

@@ -520,6 +520,25 @@ class Controls(Page):
         self.studio.wait_for("view", view=0, axes="parent")
         self.assertEqual(self.find(axes).get_attribute("aria-pressed"), "true")
 
+    def test_a_reload_brings_back_what_views_show_and_what_is_selected(self):
+        orbit = {"center": [1, 2, 3], "turn": -20, "height": 10, "distance": 4}
+        self.studio.tell({"is": "orbit", "view": 3, "from": "free", **orbit})
+        self.click(picture(0))
+        self.press("s")
+        self.select("left-shin")
+        self.studio.forget()
+        self.driver.refresh()
+        self.studio.wait_for("view", view=3, orbit=orbit)
+        self.studio.wait_for("select", actor="model", joint="left-shin")
+        self.assertEqual(self.find('[data-key="name"]').get_attribute("value"), "left-shin")
+        self.assertEqual([each for each in self.heard("view") if each["view"] == 0 and each["as"] != "vertices"], [])
+        self.studio.project |= {"file": "examples/another.json"}
+        self.studio.forget()
+        self.driver.refresh()
+        self.studio.wait_for("view", view=0, **{"as": "surface"})
+        self.studio.wait_for("view", view=3, orbit=None)
+        self.assertEqual(self.heard("select"), [])
+
     def test_help_lists_every_shortcut(self):
         self.chord("?")
         self.until(lambda: self.js("return document.querySelector('dialog.help')?.open ?? false"))
@@ -629,6 +648,16 @@ class Films(Page):
     def of_menu(self, text):
         self.click(".title")
         self.click(".menu .text", text)
+
+    def test_a_reload_brings_back_the_cameras_view_and_a_light(self):
+        self.of_menu("Film's camera")
+        self.click("[role=tab]", "Scene")
+        self.click('[data-key="light/2"]')
+        self.studio.wait_for("select", thing="light/2")
+        self.studio.forget()
+        self.driver.refresh()
+        self.studio.wait_for("view", view=0, **{"from": "camera"})
+        self.studio.wait_for("select", thing="light/2")
 
     def test_the_cameras_view_has_the_films_shape_and_a_free_one_places_the_camera(self):
         shape = self.studio.project["size"]
