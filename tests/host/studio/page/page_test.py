@@ -800,6 +800,10 @@ class Films(Page):
         self.click('[data-key="camera.cut"]')
         self.commit("animate cut camera --frame 24")
 
+    def test_check_boxes_have_the_size_of_check_boxes(self):
+        self.click("[role=tab]", "Scripts")
+        self.assertEqual(self.find('[data-key="script.lengthen"]').size, {"width": 15, "height": 15})
+
     def test_a_motion_lengthens_the_film_where_it_may(self):
         walk = {"name": "walk", "purpose": "Walk", "group": "figure", "needs": "hips", "parameters": []}
         self.studio.tell({"is": "actions", "actions": [walk]})
