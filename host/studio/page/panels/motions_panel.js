@@ -3,6 +3,7 @@
 
 import {element} from "../dom.js";
 import {choice, line, part, toggle} from "../fields.js";
+import {read, written} from "../numbers.js";
 
 const kGroups = [["figure", "Figures"], ["kinematic", "Things"], ["camera", "Camera"]];
 const kChoices = {SIDE: ["left", "right"], AXIS: ["x", "y", "z"], EASE: ["linear", "in", "out", "both"]};
@@ -14,6 +15,12 @@ const kUnits = {S: "seconds", DEGREES: "degrees", D: "units of length", H: "unit
                 "X Y": "units of length", "X Y Z": "units of length"};
 
 const kEnds = new Set(["commit", "drag", "undo", "redo", "cancel"]);  // messages after which the studio shows no preview
+
+// These units show in the field.
+const kShortUnits = {S: "s", DEGREES: "\u00b0", D: "units", H: "units", Z: "units"};
+
+// What is done where nothing is given, if it is an amount: "2", "0.62 of the leg".
+const amountIn = (meaning) => /default: (-?\d[^;,]*)/.exec(meaning)?.[1];
 
 function titleOf({value, meaning}) {
   const unit = /units|degrees|seconds/.test(meaning) ? undefined : kUnits[value];
@@ -143,17 +150,19 @@ export class MotionsPanel {
 
   #numbers(parameter) {
     const {name, value, meaning, example, count} = parameter, title = titleOf(parameter);
-    const otherwise = /default: ([-\d.]+)/.exec(meaning)?.[1], letters = value.split(" "), examples = example.split(" ");
+    const letters = value.split(" "), examples = example.split(" "), isNumber = examples.every((each) => read(each) !== null);
     const inputs = Array.from({length: count}, (_, i) => element("input", {
       type: "text", inputmode: "decimal", autocomplete: "off", spellcheck: "false", title, "data-key": `motion.${name}${i || ""}`,
-      "aria-label": count > 1 ? `${titled(name)} ${letters[i]}` : titled(name), placeholder: otherwise ?? `e.g. ${examples[i]}`,
+      "aria-label": count > 1 ? `${titled(name)} ${letters[i]}` : titled(name), placeholder: amountIn(meaning) ?? `e.g. ${examples[i]}`,
       oninput: () => this.#changed(),
     }));
-    const values = () => inputs.map((input) => input.value.trim().replace(",", "."));
-    const given = () => values().filter((text) => text !== "").length;
-    return {name, root: explained(title, line(titled(name), element("div", {class: "several"}, inputs))),
-            values: () => given() === count ? values() : [],
-            lacks: () => given() === 0 || given() === count ? "" : `${titled(name)}: give ${listed(letters)}`};
+    const texts = () => inputs.map((input) => input.value.trim()).filter((text) => text !== "");
+    const isWrong = () => isNumber && texts().some((text) => read(text) === null);
+    const unit = kShortUnits[value] && element("span", {class: "unit", "aria-hidden": "true"}, kShortUnits[value]);
+    return {name, root: explained(title, line(titled(name), element("div", {class: isNumber && count === 1 ? "number" : "several"}, inputs, unit))),
+            values: () => texts().length < count ? [] : texts().map((text) => isNumber ? written(read(text), 6) : text),
+            lacks: () => isWrong() ? `${titled(name)}: write a number, or an expression such as 1.5*2`
+              : texts().length % count === 0 ? "" : `${titled(name)}: give ${listed(letters)}`};
   }
 
   #lacks() { return this.#fields.map(({lacks}) => lacks()).find((text) => text !== "") ?? ""; }

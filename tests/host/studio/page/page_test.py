@@ -823,7 +823,8 @@ class Films(Page):
         self.studio.tell({"is": "actions", "actions": [
             {"name": "walk", "purpose": "Walk", "group": "figure", "needs": "hips", "parameters": [
                 {"name": "pace", "value": "N", "meaning": "steps a second; default: 2", "example": "1.5", "count": 1},
-                {"name": "to", "value": "X Y", "meaning": "a place on the floor", "example": "2 -1", "count": 2}]},
+                {"name": "to", "value": "X Y", "meaning": "a place on the floor", "example": "2 -1", "count": 2},
+                {"name": "step-length", "value": "D", "meaning": "default: 0.62 of the leg; on four legs less", "example": "0.7", "count": 1}]},
             {"name": "nod", "purpose": "Nod with head and neck", "group": "figure", "needs": "head", "parameters": [
                 {"name": "first", "value": "SIDE", "meaning": "left or right; default: right", "example": "left", "count": 1},
                 {"name": "seconds", "value": "S", "meaning": "default: 1", "example": "2", "count": 1}]},
@@ -872,6 +873,19 @@ class Films(Page):
         self.studio.wait_for("preview")
         self.click('[data-key="motion.apply"]')
         self.commit("animate throw walker --to 2 2 0")
+
+    def test_numbers_of_a_motion_have_their_unit_and_may_be_expressions(self):
+        self.motions()
+        self.click("[data-motion=walk]")
+        field = '[data-key="motion.step-length"]'
+        self.assertEqual(self.find(field).get_attribute("placeholder"), "0.62 of the leg")
+        self.assertEqual(self.js("return document.querySelector(arguments[0]).nextSibling.textContent", field), "units")
+        self.type(field, "0,35*")
+        self.click('[data-key="motion.apply"]')
+        self.until(lambda: self.find(".motion-problem").text, "Step length: write a number, or an expression such as 1.5*2")
+        self.type(field, "2")
+        self.click('[data-key="motion.apply"]')
+        self.commit("animate walk walker --step-length 0.7")
 
     def test_what_was_typed_for_a_motion_is_there_again(self):
         self.motions()
