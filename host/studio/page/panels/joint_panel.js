@@ -34,7 +34,7 @@ export class JointPanel {
   #update() {
     const joint = this.state.joint();
     const {project, selected} = this.state;
-    const built = !joint ? `nothing ${this.#firstSteps().flat()}` : JSON.stringify([project.kind, selected, joint.free, joint.limits, joint.shape, Boolean(joint.sbb),
+    const built = !joint ? `${this.#whatIsSelected()} ${this.#firstSteps().flat()}` : JSON.stringify([project.kind, selected, joint.free, joint.limits, joint.shape, Boolean(joint.sbb),
                                            Boolean(joint.pose), project.shapes, Object.keys(joint.options ?? {}),
                                            project.materials.map(({name}) => name),
                                            this.state.actor().joints.map(({name}) => name)]);
@@ -66,8 +66,16 @@ export class JointPanel {
 
   #nothing() {
     const line = ([key, text]) => element("div", {}, element("dt", {}, element("kbd", {}, key)), element("dd", {}, text));
-    return element("div", {class: "nothing"}, element("p", {}, this.state.isFilm() ? "No joint of an actor is selected." : "No joint is selected."),
+    return element("div", {class: "nothing"}, element("p", {}, this.#whatIsSelected()),
                    element("dl", {}, this.#firstSteps().map(line)));
+  }
+
+  #whatIsSelected() {
+    const {actor, thing} = this.state.selected;
+    if (!this.state.isFilm()) return "No joint is selected.";
+    if (actor !== null) return `${actor} is selected as a whole: its name, place, turn and carrier are in the panel Scene.`;
+    if (thing !== null) return `The ${thing.replace("/", " ")} is selected: its numbers are in the panel Scene.`;
+    return "No joint of an actor is selected.";
   }
 
   // What a person may do, by what there is.

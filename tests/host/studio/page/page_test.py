@@ -915,6 +915,11 @@ class Films(Page):
         self.assertEqual(self.find('[data-key="motion.to1"]').get_attribute("title"), "A place on the floor. In units of length.")
         self.assertEqual(self.find('[data-key="motion.pace"]').get_attribute("title"), "Steps a second; default: 2.")
 
+    def test_an_actor_that_is_selected_is_named_in_the_joint_panel(self):
+        self.click("[data-key=walker] > .row")
+        self.click("[role=tab]", "Joint")
+        self.until(lambda: "walker is selected as a whole" in self.find("#panels .panel:not([hidden]) .nothing").text)
+
     def test_the_tab_is_the_same_after_a_rendering_was_looked_at(self):
         self.click("[role=tab]", "Scene")
         shown = lambda: self.find('#panels [role="tab"][aria-selected="true"]').text  # noqa: E731
