@@ -37,14 +37,12 @@ export class Header {
     this.ghosts = iconButton("ghosts");
     addMenu(this.ghosts, ghosts);
     this.pin = iconButton("pin", () => edits.pin());
-    this.blend = iconButton("blend");
+    this.blend = element("button", {class: "quiet"});
     addMenu(this.blend, () => this.#blends());
     this.film = element("div", {class: "group", hidden: true}, this.ghosts, this.marks, this.pin, this.blend);
     name(this.ghosts, "Ghosts", keysOf("ghosts"));
     name(this.marks, "Marks of camera and lights", keysOf("marks"));
     name(this.pin, "Pin the selected joint", keysOf("pin"));
-    this.blend.setAttribute("aria-label", "Blend poses into the frames around");
-    this.blend.title = "Blend poses into the frames around: where keys are dense, one alone would pop";
     const sheet = iconButton("help", help);
     name(sheet, "Keys and mouse", keysOf("help"));
     place.append(element("div", {class: "brand"}, logo(), element("h1", {}, this.file), this.kind),
@@ -74,6 +72,18 @@ export class Header {
     return [{heading: "A pose changes"}, ...kFalloffs.map(one)];
   }
 
+  // Loud while it is on: then each pose changes frames that do not show.
+  #showBlend(falloff) {
+    const on = falloff > 0;
+    this.blend.replaceChildren(icon("blend"), ...(on ? [`Blend \u00b1${falloff} frames`] : []));
+    this.blend.classList.toggle("icon", !on);
+    this.blend.classList.toggle("loud", on);
+    this.blend.setAttribute("aria-pressed", String(on));
+    this.blend.setAttribute("aria-label", on ? `Blend is on: poses also change ${falloff} frames to both sides` : "Blend poses into the frames around");
+    this.blend.title = on ? "Each pose also changes the frames around, up to the next cut. The menu turns it off"
+      : "Blend poses into the frames around: where keys are dense, one alone would pop";
+  }
+
   #project() {
     const {file, kind} = this.state.project;
     this.file.textContent = file.split("/").at(-1);
@@ -96,7 +106,7 @@ export class Header {
     this.tools.without(this.state.isFilm() ? kToolsOfModels : kToolsOfFilms);
     this.ghosts.setAttribute("aria-pressed", String(ghosts !== null));
     this.marks.setAttribute("aria-pressed", String(marks));
-    this.blend.setAttribute("aria-pressed", String(falloff > 0));
+    this.#showBlend(falloff);
     this.pin.disabled = selected.joint === null;
     this.pin.setAttribute("aria-pressed", String(pins.some(({actor, joint}) => actor === selected.actor && joint === selected.joint)));
   }

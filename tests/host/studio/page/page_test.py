@@ -739,6 +739,8 @@ class Films(Page):
         self.commit("animate pose watcher head=0,0,1 --frame 24 --clamp")
         self.click('[aria-label="Blend poses into the frames around"]')
         self.click(".menu .text", "8 frames to both sides")
+        blend = self.find("#header .loud")
+        self.assertEqual([blend.text, blend.accessible_name[:11]], ["Blend \u00b18 frames", "Blend is on"])
         self.type('[data-key="pose.z"]', Keys.ARROW_RIGHT)
         self.commit("animate pose watcher head=0,0,1 --falloff 8 --frame 24 --clamp")
         self.click(picture())
