@@ -11,6 +11,7 @@
 #include "host/content/elementary/elementary.h"
 #include "host/content/modeler/frames.h"
 #include "host/studio/stage/hand_words.h"
+#include "host/studio/stage/selection.h"
 
 namespace mars::studio {
 namespace {
@@ -57,9 +58,7 @@ void Hand::take(const Grip& grip, RingAxes axes) {
 }
 
 bool Hand::take(const Hit& hit) {
-  const auto& joints = project_.film().model_of(*selection_.actor).joints;
-  std::size_t joint = *selection_.joint;
-  while (joint != modeler::kNone && joints[joint].freedoms() == 0) joint = joints[joint].parent;
+  const std::size_t joint = turning_joint(project_.film().model_of(*selection_.actor), *selection_.joint);
   if (joint == modeler::kNone) return false;
   selection_.joint = joint;
   const auto posed = studio::posed(project_, selection_);

@@ -73,6 +73,17 @@ std::string text_of(const Project& project, const Selection& selection) {
   return text;
 }
 
+std::size_t turning_joint(const modeler::Model& model, std::size_t joint) {
+  while (joint != modeler::kNone && model.joints[joint].freedoms() == 0) joint = model.joints[joint].parent;
+  return joint;
+}
+
+Selection clicked(const Project& project, const Selection& picked) {
+  if (project.is_model() || !picked.joint) return picked;
+  const std::size_t joint = turning_joint(project.film().model_of(*picked.actor), *picked.joint);
+  return {picked.actor, joint == modeler::kNone ? std::nullopt : std::optional(joint)};
+}
+
 Picked pick(const Project& project, const Moments& moments, const Screen& screen, const glm::dvec2& pixel) {
   const auto& owners = moments.owners();
   const auto counts = [&](std::size_t segment) { return !project.is_model() || owners[segment].actor == 0; };

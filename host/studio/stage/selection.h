@@ -28,6 +28,12 @@ void put_names(const Project& project, const Selection& selection, Json& message
 // "elbow y 45": a joint with the angles that it can change; a mark's name.
 std::string text_of(const Project& project, const Selection& selection);
 
+// The joint, or the nearest above it that can turn; kNone where none can.
+std::size_t turning_joint(const modeler::Model& model, std::size_t joint);
+// What a click on it selects. In a film joints can only turn: one that cannot gives way to the nearest above it that
+// can, else to the actor as a whole.
+Selection clicked(const Project& project, const Selection& picked);
+
 struct Picked {
   Selection selection;
   std::optional<Hit> hit;

@@ -239,12 +239,12 @@ class StageOfPages : public Stage {
     return held;
   }
 
-  // What it picks is selected, and follows the hand if it can.
+  // What it picks is selected, or what can turn in its place, and follows the hand if it can.
   Selection take_what_is_at(const PageView& view, const glm::dvec2& pixel) {
     const Picked picked = pick(project_, moments_, screen_of(view), pixel);
     const Selection& held = picked.selection;
     if (!held.actor) return held;
-    select(view.page, names_of(project_, held));
+    select(view.page, names_of(project_, clicked(project_, held)));
     if (!picked.hit) return held;
     auto hand = hand_on({project_, moments_, view.tool, view.axes, screen_of(view), pixel, pins_of(view.page, held)},
                         held, *picked.hit);

@@ -201,6 +201,22 @@ TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
   EXPECT_TRUE(effect_of(scene.project.previews.back()).contains("upper"));
 }
 
+TEST(Hands, AClickOnWhatCannotTurnSelectsWhatCan) {
+  const glm::dvec3 on_plate(1.55, -0.3, 0.25);
+  const auto selected = [&](animator::Film film, bool model) {
+    HandScene scene(std::move(film), model);
+    scene.grab(scene.pixel(on_plate));
+    EXPECT_EQ(scene.last("grabbed")["joint"], "plate");
+    return scene.last("selected")["joint"];
+  };
+  EXPECT_EQ(selected(arm(), false), "upper");
+  EXPECT_EQ(selected(arm(), true), "plate") << "a model's joint has more than angles";
+  animator::Film stiff = arm();
+  for (modeler::Joint& joint : stiff.models[0].joints) joint.limits.fill({0, 0});
+  ASSERT_EQ(stiff.models[0].joints[0].freedoms(), 0);
+  EXPECT_TRUE(selected(stiff, false).is_null()) << "the actor as a whole";
+}
+
 TEST(Hands, ShiftIsFine) {
   HandScene scene(arm());
   const glm::dvec3 held(1.2, -0.15, 0);
