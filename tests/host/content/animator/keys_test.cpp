@@ -416,5 +416,18 @@ TEST(Pose, AnEaseIsOfTheNamedPartsAlone) {
   EXPECT_EQ(scene.keys()[1]["pose"]["elbow"].dump(), "[0,60,0]");
 }
 
+TEST(Pose, AnEaseOfOneJointIsNoneOfOthersThatMoveLater) {
+  Scene scene("");
+  for (const char* still : {"elbow.y=0", "shoulder.z=0"}) posed(scene, still, 0);
+  posed(scene, "elbow.y=20", 20);
+  scene([](document::Json& j, const Film& f) { return ease_keys(j, f, {false, "it", {"elbow"}}, {0, 0}, kBoth); });
+  posed(scene, "shoulder.z=15", 20);
+  posed(scene, "turn.z=40", 20);
+  const FigureMotion& motion = scene.film.actors[0].motion;
+  EXPECT_NEAR(JointMotion(scene.film.models[0].joints[0], motion.pose[0]).pose_at(5).z, 3.75, 1e-9);
+  EXPECT_NEAR(JointMotion(scene.film.models[0].joints[1], motion.pose[1]).pose_at(5).y, 20 * eased(kBoth, 0.25), 1e-9);
+  EXPECT_EQ(motion.turn[0].ease, kLinear);
+}
+
 }  // namespace
 }  // namespace mars::animator
