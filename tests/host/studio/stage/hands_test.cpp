@@ -192,6 +192,36 @@ TEST(Hands, StopAtLimits) {
   EXPECT_EQ(scene.state().pose[0], glm::dvec3(0));
 }
 
+// A forearm that bends about y and twists about z, along which it lies: dragged where y stops, it does not twist.
+TEST(Hands, StopAtALimitWithoutATwist) {
+  HandScene scene(film::film_of(R"({"frames": 9, "size": [640, 480], "camera": {"eye": [1, -9, 2], "at": [1, 0, 0]},
+    "models": {"m": {"joints": [{"name": "forearm", "limits": {"y": [0, 150], "z": [-90, 90]},
+      "segment": {"shape": "box", "sbb": [[-0.2, -0.2, 0], [0.2, 0.2, 1.5]]}}]}},
+    "actors": [{"name": "a", "model": "m", "pose": {"forearm": [0, 30, 10]}}]})"),
+                  false, "free");
+  scene.eye.orbit.turn = -70;
+  scene.tool("none");
+  const glm::dvec3 held = {0.05, -0.2, 1.2};
+  scene.grab(scene.pixel(scene.of_joint(0, held)));
+  ASSERT_EQ(scene.last("grabbed")["joint"], "forearm");
+  const auto drag_to = [&](double degrees) {
+    const double angle = degrees * modeler::kDegree;
+    scene.drag(scene.pixel({1.2 * std::sin(angle), -0.2, 1.2 * std::cos(angle)}));
+  };
+  for (int degrees = 28; degrees >= -100; degrees -= 2) {
+    drag_to(degrees);
+    EXPECT_NEAR(scene.state().pose[0].z, 10, 6) << degrees;
+    if (degrees < -10) {
+      EXPECT_EQ(scene.state().pose[0].y, 0) << degrees;
+    }
+  }
+  for (int degrees = -98; degrees <= 40; degrees += 2) drag_to(degrees);
+  EXPECT_NEAR(scene.state().pose[0].y, 40, 4) << "the way beyond the limit is gone back";
+  EXPECT_NEAR(scene.state().pose[0].z, 10, 6);
+  for (int degrees = 42; degrees <= 360; degrees += 2) drag_to(degrees);
+  EXPECT_NEAR(scene.state().pose[0].y, 0, 6) << "round to the other limit";
+}
+
 TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
   HandScene scene(arm());
   scene.grab(scene.pixel({1.55, -0.3, 0.25}));
