@@ -201,7 +201,7 @@ void add_actor_options(cli::Command command, FilmWords& words) {
         keys::object("proportions").key("height"));
   command
       .add("--beside", words.beside,
-           "Beside the actors that are there at a frame, so that none stands inside another. Example: --beside 0")
+           "Beside all other actors, so that it stands in none of them up to a frame. Example: --beside 0")
       .type("FRAME")
       .range(0u, wire::kMostFrames);
   command.checks([&words] {

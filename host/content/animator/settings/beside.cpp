@@ -20,6 +20,8 @@ constexpr double kMeet = 0.01;  // of the actor's longest side: what meets by le
 constexpr double kGap = 0.3;    // of its width
 constexpr double kStage = 5;    // times as wide and as deep: another may stand in it, between its segments
 
+constexpr std::size_t kMostStandings = 5000;  // of other actors: a page waits for them
+
 // Around the unit cube that the matrix moves, along the world's axes.
 Box around(const wire::Matrix& matrix) {
   Box box;
@@ -68,6 +70,20 @@ void add_pairs(const Standing& actor, const Standing& other, Pairs& pairs) {
       if (!flat(box) || !flat(obstacle)) pairs.emplace_back(box, obstacle);
 }
 
+// Those of the other at the frame and before it, of each so many frames.
+void add_pairs(const Standing& actor, const Film& film, std::size_t other, std::uint32_t frame, std::uint32_t step,
+               Pairs& pairs) {
+  Standing last;
+  const auto add_at = [&](std::uint32_t at) {
+    Standing there = standing(film, other, at);
+    if (there.segments == last.segments) return;
+    add_pairs(actor, there, pairs);
+    last = std::move(there);
+  };
+  for (std::uint32_t at = frame; at > 0; at -= std::min(at, step)) add_at(at);
+  add_at(0);
+}
+
 // By more than `spare`, with `box` `by` units along y.
 bool meet(const Box& box, double by, const Box& other, double spare) {
   const auto apart = [&](int axis, double shift) {
@@ -104,11 +120,10 @@ void place_beside(document::Json& film, const Film& meaning, const std::string& 
   const auto number = std::ranges::find(meaning.actors, name, &Actor::name) - meaning.actors.begin();
   const Standing own = standing(meaning, static_cast<std::size_t>(number), frame);
   if (own.segments.empty()) return;
+  const auto step = static_cast<std::uint32_t>(1 + frame * meaning.actors.size() / kMostStandings);
   Pairs pairs;
   for (std::size_t other = 0; other < meaning.actors.size(); ++other)
-    if (const Standing there = standing(meaning, other, frame);
-        other != static_cast<std::size_t>(number) && !there.segments.empty())
-      add_pairs(own, there, pairs);
+    if (other != static_cast<std::size_t>(number)) add_pairs(own, meaning, other, frame, step, pairs);
   const double by = way_aside(std::move(pairs), own.all.max - own.all.min);
   if (by == 0) return;
   document::Json& actor = actor_of(film, name);
