@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <glm/matrix.hpp>
 #include <map>
 #include <set>
@@ -86,6 +87,14 @@ void require_own_turn(const PartSetting& setting, const std::string& text, const
                   "--local turns joints and whole actors; leave it out here");
   if (!setting.relative || given != 1)
     throw Failure("is no turn about one axis", "'" + text + "'", "with --local write it like elbow.x+=30");
+}
+
+// Of what matches a pattern, `local` turns what turns.
+std::vector<PartSetting> settings_of(const std::string& text, const Thing& thing, const PoseManner& manner) {
+  std::vector<PartSetting> settings = read_settings(text, thing);
+  const auto turns = [&](const PartSetting& setting) { return joint_of(thing.part(setting.part)) != nullptr; };
+  if (manner.local && std::ranges::any_of(settings, turns)) std::erase_if(settings, std::not_fn(turns));
+  return settings;
 }
 
 // Refuses an axis that an earlier setting has set; `set` are the parts and axes of those.
@@ -326,7 +335,7 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
   std::set<std::pair<std::string, int>> set;
   std::vector<PartSetting> all;
   for (const std::string& text : settings) {
-    const std::vector<PartSetting> parts = read_settings(text, posing.thing());
+    const std::vector<PartSetting> parts = settings_of(text, posing.thing(), manner);
     for (const PartSetting& part : parts) {
       refuse_twice(part, text, set);
       if (manner.local) require_own_turn(part, text, posing.thing());

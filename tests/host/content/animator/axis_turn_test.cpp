@@ -118,6 +118,16 @@ TEST_F(OwnTurns, AreOfAllMatchingJointsEachAboutItsOwnAxis) {
   EXPECT_GT(std::abs(pose_at(1, 40).y), 1) << "three numbers changed";
 }
 
+TEST_F(OwnTurns, OfAllPartsAreOfThoseThatTurn) {
+  const glm::dmat3 stem = turn_at(0, 40), skew = turn_at(4, 40);
+  turn({"*.x+=30"}, {40, 40});
+  const glm::dmat3 rx = modeler::rotation_by_degrees({1, 0, 0}, 30);
+  EXPECT_LT(distance(turn_at(0, 40), stem * rx), 1e-9);
+  EXPECT_LT(distance(turn_at(4, 40), skew * rx), 1e-9);
+  EXPECT_TRUE(film_.actors[0].motion.place.empty());
+  EXPECT_EQ(pose_at(3, 40), glm::dvec3(0)) << "the hinge does not turn about x";
+}
+
 TEST_F(OwnTurns, AreOfAllKeysOfARange) {
   std::vector<glm::dmat3> were;
   for (const std::uint32_t frame : {0u, 20u, 24u}) were.push_back(turn_at(0, frame));
