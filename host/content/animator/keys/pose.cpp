@@ -198,18 +198,23 @@ class Posing {
       if (const auto all = split_way(track, frame, value_at))
         remarks_.push_back(remark_of_split(thing().name, part, *all));
     };
-    const FrameRange shot = shot_of(track, range);
+    const FrameRange shot = shot_of(track, range), later{range.last + 1, range.last + manner_.falloff};
+    // The first pose of a shot is where its motion begins: without keys near by, there is none to which to go back.
+    const bool begins_shot = shot.first == range.last &&
+                             std::ranges::none_of(track, [&](const TrackKey& key) { return later.holds(key.frame); });
     hold(std::max(shot.first, range.first - std::min(range.first, manner_.falloff)));
-    if (range.last + manner_.falloff <= std::min(shot.last, last_frame_)) hold(range.last + manner_.falloff);
+    if (!begins_shot && later.last <= std::min(shot.last, last_frame_)) hold(later.last);
   }
 
-  // The frames between the cuts around the range: no change is blended across one.
+  // The frames between the cuts around the range: no change is blended across one, nor along a value that is held to
+  // the next cut.
   static FrameRange shot_of(const Track& track, FrameRange range) {
     FrameRange shot{0, wire::kMostFrames};
     for (std::size_t i = 0; i < track.size(); ++i) {
       if (!track[i].ease.hold) continue;
-      if (i + 1 < track.size() && track[i + 1].frame <= range.first) shot.first = track[i + 1].frame;
-      if (track[i].frame >= range.last) shot.last = std::min(shot.last, track[i].frame);
+      const std::uint32_t cut = i + 1 < track.size() ? track[i + 1].frame : wire::kMostFrames;
+      if (track[i].frame < range.first) shot.first = std::min(cut, range.first);
+      if (cut > range.last) shot.last = std::min(shot.last, std::max(track[i].frame, range.last));
     }
     return shot;
   }

@@ -210,19 +210,67 @@ TEST_F(Poses, BlendBesideSplines) {
     EXPECT_NEAR(value_at(film_.actors[0].motion.pose[1], frame).y, 50, 1e-9) << frame;
 }
 
-TEST_F(Poses, BlendAcrossNoCut) {
-  json_["actors"][0]["keys"] = document::Json::parse(R"([{"frame": 0, "place": [0, 0, 0]},
-      {"frame": 23, "place": [2, 0, 0], "ease": "hold"}, {"frame": 24, "place": [9, 0, 0]},
-      {"frame": 40, "place": [9, 8, 0]}])");
+// An actor whose place is cut.
+class CutPoses : public Poses {
+ protected:
+  void keys(const char* keys) {
+    json_["actors"][0]["keys"] = document::Json::parse(keys);
+    read();
+    before_ = film_;
+  }
+
+  void blend(std::uint32_t frame) { pose("it", {"place.z+=3"}, {frame, frame}, Beyond::refused, 8); }
+
+  double moved(std::uint32_t frame) const {
+    return glm::distance(value_at(film_.actors[0].motion.place, frame),
+                         value_at(before_.actors[0].motion.place, frame));
+  }
+
+  void expect_still_but(FrameRange range) const {
+    for (std::uint32_t frame = 0; frame < 49; ++frame)
+      if (!range.holds(frame)) EXPECT_LT(moved(frame), 1e-9) << frame;
+  }
+
+  Film before_;
+};
+
+constexpr const char* kCut = R"([{"frame": 0, "place": [0, 0, 0]}, {"frame": 23, "place": [2, 0, 0], "ease": "hold"},
+    {"frame": 24, "place": [9, 0, 0]}, {"frame": 40, "place": [9, 8, 0]}])";
+
+TEST_F(CutPoses, BlendAcrossNoCut) {
+  keys(kCut);
   EXPECT_TRUE(pose("it", {"place.z+=3"}, {24, 24}).empty()) << "at a cut nothing pops";
-  const Film before = film_;
-  pose("it", {"place.z+=3"}, {24, 24}, Beyond::refused, 8);
-  const auto moved = [&](std::uint32_t frame) {
-    return glm::distance(value_at(film_.actors[0].motion.place, frame), value_at(before.actors[0].motion.place, frame));
-  };
-  for (std::uint32_t frame = 0; frame < 49; ++frame)
-    if (frame < 24 || frame >= 32) EXPECT_LT(moved(frame), 1e-9) << frame;
+  for (const std::uint32_t frame : {20u, 23u}) {
+    keys(kCut);
+    blend(frame);
+    expect_still_but({frame - 7, 23});
+    EXPECT_NEAR(moved(frame), 3, 1e-9);
+  }
+  keys(kCut);
+  blend(26);
+  expect_still_but({24, 33});
+  EXPECT_NEAR(moved(26), 3, 1e-9);
+}
+
+// As a camera that stands still is cut: its only key before the cut holds.
+TEST_F(CutPoses, BlendNothingThatIsHeldToACut) {
+  keys(R"([{"frame": 0, "place": [0, 0, 0], "ease": "hold"}, {"frame": 24, "place": [9, 0, 0]}])");
+  blend(20);
+  expect_still_but({20, 23});
+  for (const std::uint32_t frame : {20u, 23u}) EXPECT_NEAR(moved(frame), 3, 1e-9);
+}
+
+TEST_F(CutPoses, BeginAShot) {
+  keys(kCut);
+  blend(24);
+  expect_still_but({24, 39});
   EXPECT_NEAR(moved(24), 3, 1e-9);
+  EXPECT_NEAR(moved(32), 1.5, 1e-9) << "on the way to the next key, not back where it was";
+  keys(R"([{"frame": 23, "place": [2, 0, 0], "ease": "hold"}, {"frame": 24, "place": [9, 0, 0]},
+      {"frame": 26, "place": [9, 1, 0]}, {"frame": 40, "place": [9, 8, 0]}])");
+  blend(24);
+  expect_still_but({24, 31});
+  EXPECT_GT(moved(26), 2) << "keys near by change with it";
 }
 
 TEST_F(Poses, OfLightsBehindTheEndAreFound) {
