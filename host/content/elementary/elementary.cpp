@@ -48,6 +48,7 @@ Reduced reduce_small(double angle, double further) {
 
 Reduced reduce(double angle) {
   if (std::abs(angle) < kMostQuarters) return reduce_small(angle, 0);
+  if (!std::isfinite(angle)) return {0, {kNan}};
   // fmod is exact: what it leaves out of 2 pi in each turn comes off afterwards.
   constexpr double kTurn = 2 * kPi.high;
   constexpr Pair kLeftOut{2 * kPi.low, -0x1.f1976b7ed8fbcp-108};
@@ -205,7 +206,8 @@ double log10(double x) {
 
 double pow(double base, double exponent) {
   if (exponent == 0) return 1;
-  if (base == 0) return exponent > 0 ? 0 : exponent < 0 ? kInfinity : kNan;
+  if (std::isnan(base) || std::isnan(exponent)) return kNan;
+  if (base == 0) return exponent > 0 ? 0 : kInfinity;
   if (base < 0) return !is_whole(exponent) ? kNan : is_odd(exponent) ? -pow(-base, exponent) : pow(-base, exponent);
   const Pair log = log_of(base);
   if (std::abs(log.high * exponent) > 1000) return log.high * exponent > 0 ? kInfinity : 0;

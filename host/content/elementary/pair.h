@@ -1,8 +1,15 @@
 // A number as the sum of two doubles, of which the second is at most half a unit in the last place of the first: 106
-// bits. Dekker, "A floating-point technique for extending the available precision", Numerische Mathematik 18 (1971).
+// bits, where the compiler adds no product before it is rounded (-ffp-contract=off). Dekker, "A floating-point
+// technique for extending the available precision", Numerische Mathematik 18 (1971).
 #pragma once
 
+#include <cfloat>
 #include <cmath>
+
+#ifdef __FAST_MATH__
+#error "-ffast-math takes the low halves of pairs for zero"
+#endif
+static_assert(FLT_EVAL_METHOD == 0, "doubles must have no more bits than 53 while they are computed with");
 
 namespace mars::elementary {
 
