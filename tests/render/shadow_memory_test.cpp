@@ -62,10 +62,7 @@ void expect_as_planned(wire::FilmData film, const char* what) {
   const std::int64_t others = most_allocated(without, 0);
   for (const std::uint64_t bytes : {std::uint64_t{0}, std::uint64_t{1} << 30}) {
     const shadow::ShadowPlan plan = shadow::plan_shadows(needs, bytes);
-    // Of memory for casters, some is for lists.
-    const std::size_t in_blocks = plan.band + plan.chunk * 5 / 8 + plan.diced * 5 / 8;
-    EXPECT_LE(most_allocated(film, bytes) - others, static_cast<std::int64_t>(plan.bytes() - in_blocks))
-        << what << ", " << plan.bytes() << " bytes";
+    EXPECT_LE(most_allocated(film, bytes) - others, static_cast<std::int64_t>(plan.bytes())) << what;
   }
 }
 
