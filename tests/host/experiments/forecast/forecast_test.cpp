@@ -340,7 +340,7 @@ TEST(ForecastsOfLamps, LeaveOutWhatIsBehindTheEye) {
   std::ifstream file(examples + "/meadow.json");
   nlohmann::json meadow = nlohmann::json::parse(file);
   meadow["camera"] = {{"eye", {0, -3, 1.6}}, {"at", {0, -6, 1.6}}, {"fov", 90}};
-  meadow["lights"] = {{{"place", {-1, -3, 3}}, {"size", 0.3}, {"shadow", true}}};
+  meadow["lights"] = nlohmann::json::array({{{"place", {-1, -3, 3}}, {"size", 0.3}, {"shadow", true}}});
   std::ofstream(folder / "behind.json") << meadow;
   const SimulatedFilm film(folder / "behind", "0-0", "fat-tree");
   const Forecast forecast = film.forecast(1, 1);
