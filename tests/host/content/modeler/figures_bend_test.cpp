@@ -51,6 +51,11 @@ struct HemSide {
   int side;
 };
 
+Edge side_of(const wire::Patch& patch, int side) {
+  const std::array<Edge, 4> sides = sides_of(patch);
+  return sides[static_cast<std::size_t>(side)];
+}
+
 glm::dvec3 normal_on(const wire::Patch& patch, int side, double along) {
   const double uv[4][2] = {{along, 0}, {1, along}, {1 - along, 1}, {0, 1 - along}};
   return normal_of(patch, uv[side][0], uv[side][1]);
@@ -67,7 +72,7 @@ class Surface {
     std::map<Edge, HemSide> sides;
     for (std::size_t patch = 0; patch < patches.size(); ++patch)
       for (int side = 0; side < 4; ++side) {
-        const Edge edge = sides_of(patches[patch])[static_cast<std::size_t>(side)];
+        const Edge edge = side_of(patches[patch], side);
         ++corners_[edge[0]];
         Edge reversed = edge;
         std::reverse(reversed.begin(), reversed.end());
@@ -89,9 +94,9 @@ class Surface {
   // Sides that join at rest and not now.
   std::size_t cracks(const std::vector<wire::Patch>& now) const {
     return static_cast<std::size_t>(std::ranges::count_if(joins_, [&](const Join& join) {
-      Edge one = sides_of(now[join.one.patch])[static_cast<std::size_t>(join.one.side)];
+      Edge one = side_of(now[join.one.patch], join.one.side);
       std::ranges::reverse(one);
-      return one != sides_of(now[join.other.patch])[static_cast<std::size_t>(join.other.side)];
+      return one != side_of(now[join.other.patch], join.other.side);
     }));
   }
 
@@ -150,7 +155,7 @@ class Surface {
         return meet == 3 || meet > 4;  // 2 or 1 at a hem
       }));
     for (Join& join : joins_) {
-      const Edge edge = sides_of(patches[join.one.patch])[static_cast<std::size_t>(join.one.side)];
+      const Edge edge = side_of(patches[join.one.patch], join.one.side);
       join.between_fours = corners_.at(edge[0]) == 4 && corners_.at(edge[3]) == 4;
       join.is_regular = is_regular[join.one.patch] && is_regular[join.other.patch];
     }
@@ -171,8 +176,8 @@ class Surface {
   static double lid(const std::vector<wire::Patch>& now, const std::vector<HemSide>& hem) {
     glm::dvec3 middle(0);
     const auto corner = [&](const HemSide& side, std::size_t end) {
-      const Point p = sides_of(now[side.patch])[static_cast<std::size_t>(side.side)][end];
-      return glm::dvec3(p[0], p[1], p[2]);
+      const Edge edge = side_of(now[side.patch], side.side);
+      return glm::dvec3(edge[end][0], edge[end][1], edge[end][2]);
     };
     for (const HemSide& side : hem) middle += corner(side, 0) / static_cast<double>(hem.size());
     double volume = 0;
