@@ -24,16 +24,6 @@ glm::dmat3 linear_of(const wire::Matrix& matrix) {
   return {m[0][0], m[1][0], m[2][0], m[0][1], m[1][1], m[2][1], m[0][2], m[1][2], m[2][2]};
 }
 
-// Without whole turns that lead away from the limits.
-glm::dvec3 unwound(const modeler::Joint& joint, glm::dvec3 pose) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const modeler::Limits& limits = joint.limits[static_cast<std::size_t>(axis)];
-    while (pose[axis] > limits.upper + 180) pose[axis] -= 360;
-    while (pose[axis] < limits.lower - 180) pose[axis] += 360;
-  }
-  return pose;
-}
-
 }  // namespace
 
 Hand::Hand(const Project& project, const Selection& selection, const Screen& screen, const glm::dvec2& mouse)
@@ -142,11 +132,9 @@ std::optional<Json> Hand::follow_ring() {
   return turn_step(pose);
 }
 
-// The limits are not the search's: with one angle at its limit it would turn the others, such as a twist, as far as
-// they go, for however little they bring the place nearer.
 std::optional<Json> Hand::follow_limb() {
-  pose_ = unwound(*posed_.joint, pose_towards(posed_, held_->place, pose_, mouse_.screen(), mouse_.at()));
-  return turn_step(animator::clamped(*posed_.joint, pose_));
+  pose_ = pose_towards(posed_, held_->place, pose_, mouse_.screen(), mouse_.at());
+  return turn_step(pose_);
 }
 
 std::optional<Json> Hand::follow_place() {
@@ -211,6 +199,7 @@ glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::
                         const glm::dvec2& pixel) {
   constexpr int kSteps = 60;
   constexpr double kNear = 0.01, kMostDegrees = 20;  // pixels; of one step
+  constexpr double kTwist = 0.4;                     // of the longest lever
   Posed posed = joint;
   posed.pose = from;
   const auto place_of = [&](const glm::dvec3& pose) {
@@ -226,11 +215,21 @@ glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::
   for (int step = 0; step < kSteps && error && glm::length(*error) > kNear; ++step) {
     const glm::dvec3 at = place_of(posed.pose);
     glm::dvec2 slopes[3];  // pixels a degree
+    double levers[3];
     for (int i = 0; i < 3; ++i) {
       const TurnAxis axis = posed.axis(i);
-      slopes[i] = modeler::kDegree * screen.motion_of(at, glm::cross(axis.axis, at - axis.center));
-      if (!axis.limits.free()) slopes[i] = glm::dvec2(0);
+      const glm::dvec3 way = glm::cross(axis.axis, at - axis.center);
+      levers[i] = axis.limits.free() ? glm::length(way) : 0;
+      slopes[i] = modeler::kDegree * screen.motion_of(at, way);
+      // What is at its limit and would go beyond stays.
+      const double wanted = glm::dot(slopes[i], *error);
+      const bool stops =
+          (posed.pose[i] <= axis.limits.lower && wanted < 0) || (posed.pose[i] >= axis.limits.upper && wanted > 0);
+      if (!axis.limits.free() || stops) slopes[i] = glm::dvec2(0);
     }
+    // An axis near which the place lies would turn far for little: where others are at their limits, to its own.
+    for (int i = 0; i < 3; ++i)
+      if (levers[i] < kTwist * *std::ranges::max_element(levers)) slopes[i] = glm::dvec2(0);
     glm::dmat3 normal(0);
     glm::dvec3 right(0);
     double largest = 0;
@@ -244,7 +243,7 @@ glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::
     glm::dvec3 by = glm::inverse(normal) * right;
     const double most = std::max({std::abs(by.x), std::abs(by.y), std::abs(by.z)});
     if (most > kMostDegrees) by *= kMostDegrees / most;
-    const glm::dvec3 next = posed.pose + by;
+    const glm::dvec3 next = animator::clamped(*posed.joint, posed.pose + by);
     const auto left = error_of(next);
     if (left && glm::length(*left) < glm::length(*error)) {
       posed.pose = next;

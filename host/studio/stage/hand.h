@@ -53,7 +53,7 @@ class Hand {
   Posed posed_{};  // at the beginning
   RingAxes axes_ = RingAxes::numbers;
   double wound_ = 0;           // degrees, of a ring
-  glm::dvec3 pose_{0, 0, 0};   // that the mouse asked for last; a limb's may be beyond limits
+  glm::dvec3 pose_{0, 0, 0};   // as it was shown last
   glm::dvec3 place_{0, 0, 0};  // at the beginning: what is moved, in its own coordinates
   glm::dvec3 world_{0, 0, 0};  // the same place in the world
   modeler::Axes frame_{};      // of the segment
@@ -61,8 +61,8 @@ class Hand {
   wire::Matrix matrix_{};
 };
 
-// The pose nearest to `from` with which the place in the joint's frame comes nearest to the pixel, whatever the limits
-// of angles that are free: damped least squares over these (Levenberg 1944, Marquardt 1963).
+// The pose nearest to `from`, within the limits, with which the place in the joint's frame comes nearest to the pixel:
+// damped least squares (Levenberg 1944, Marquardt 1963) over the joint's free angles that do not twist the limb.
 glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::dvec3& from, const Screen& screen,
                         const glm::dvec2& pixel);
 

@@ -227,8 +227,10 @@ class CutPoses : public Poses {
   }
 
   void expect_still_but(FrameRange range) const {
-    for (std::uint32_t frame = 0; frame < 49; ++frame)
-      if (!range.holds(frame)) EXPECT_LT(moved(frame), 1e-9) << frame;
+    for (std::uint32_t frame = 0; frame < 49; ++frame) {
+      if (range.holds(frame)) continue;
+      EXPECT_LT(moved(frame), 1e-9) << frame;
+    }
   }
 
   Film before_;

@@ -210,16 +210,14 @@ TEST(Hands, StopAtALimitWithoutATwist) {
   };
   for (int degrees = 28; degrees >= -100; degrees -= 2) {
     drag_to(degrees);
-    EXPECT_NEAR(scene.state().pose[0].z, 10, 6) << degrees;
+    EXPECT_NEAR(scene.state().pose[0].z, 10, 1e-9) << degrees;
     if (degrees < -10) {
       EXPECT_EQ(scene.state().pose[0].y, 0) << degrees;
     }
   }
   for (int degrees = -98; degrees <= 40; degrees += 2) drag_to(degrees);
-  EXPECT_NEAR(scene.state().pose[0].y, 40, 4) << "the way beyond the limit is gone back";
-  EXPECT_NEAR(scene.state().pose[0].z, 10, 6);
-  for (int degrees = 42; degrees <= 360; degrees += 2) drag_to(degrees);
-  EXPECT_NEAR(scene.state().pose[0].y, 0, 6) << "round to the other limit";
+  EXPECT_NEAR(scene.state().pose[0].y, 40, 6);
+  EXPECT_NEAR(scene.state().pose[0].z, 10, 1e-9);
 }
 
 TEST(Hands, WhatCannotTurnTurnsWhatItHangsOn) {
