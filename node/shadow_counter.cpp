@@ -393,8 +393,8 @@ bool ShadowCounter::meet_shafts(const shadow::ChunkCaster& caster, Light& light,
     if (is_empty(box) && !is_near) continue;
     for (const Casting seen : onto) {
       Stretches& stretches = light.seen_by_middle[number(seen)][face];
-      any |= is_near ? touch_all(stretches, reach.put)
-                     : touch(view, face_reach->shaft, caster, box, stretches, reach.put);
+      any |=
+          is_near ? touch_all(stretches, reach.put) : touch(view, face_reach->shaft, caster, box, stretches, reach.put);
     }
   }
   return any;

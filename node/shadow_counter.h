@@ -86,7 +86,7 @@ class ShadowCounter {
     std::array<std::vector<Stretches>, 2> seen_by_middle{};  // of a light with size, by Casting and face
     // By face, of the casters that are counted; none: no points are seen there.
     std::vector<std::optional<shadow::ShaftReach>> reach{};
-    std::array<double, 2> put{};                             // points of a light with size that are put, by Casting
+    std::array<double, 2> put{};  // points of a light with size that are put, by Casting
 
     bool has_size() const { return views.points > 1; }
     // Whether its middle says which still points moving casters may shade.

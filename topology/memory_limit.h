@@ -32,9 +32,9 @@ MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 inline constexpr std::uint64_t kMostShare = std::uint64_t{4} << 30;
 
 // The bytes that each of `processes` on a machine of `machine_bytes` (0: unknown) may use for a frame by default: half
-// of its equal share, at most kMostShare; of what a limit of data leaves, a quarter. Of what a limit of addresses leaves,
-// several have a quarter together, for each sees the memory of all. Where the node is one of several threads that share
-// this process's limit, `threads` says of how many.
+// of its equal share, at most kMostShare; of what a limit of data leaves, a quarter. Of what a limit of addresses
+// leaves, several have a quarter together, for each sees the memory of all. Where the node is one of several threads
+// that share this process's limit, `threads` says of how many.
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads = 1);
 
 }  // namespace mars::topology

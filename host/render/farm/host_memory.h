@@ -16,8 +16,8 @@ struct HostMemory {
   std::uint64_t frame_bytes = 0;  // of one picture
   std::uint32_t frames = 0;       // buffers of the sinks, at least 2; 1 where nodes write
   std::uint32_t backgrounds = 0;  // saved ones: one a group, and those of earlier intervals that buffers still show
-  std::uint32_t nodes = 0;  // that send strips
-  std::int32_t credits = 0;  // strips that each may have on the way, 1..wire::kMaxCredits
+  std::uint32_t nodes = 0;        // that send strips
+  std::int32_t credits = 0;       // strips that each may have on the way, 1..wire::kMaxCredits
 
   // Bytes of all strips on the way, at most; of all parts. Above the budget only where the least of each part is.
   std::uint64_t strip_bytes() const;
@@ -29,8 +29,8 @@ struct HostMemory {
 HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, wire::PixelFormat format,
                              std::uint32_t nodes, std::uint32_t groups, std::uint32_t sink_threads);
 
-// Of the shared memory, what the host uses where nodes write all files: no strips come, and of the buffers there is only
-// the one that the sinks begin with.
+// Of the shared memory, what the host uses where nodes write all files: no strips come, and of the buffers there is
+// only the one that the sinks begin with.
 HostMemory where_nodes_write(HostMemory shared);
 
 }  // namespace mars::farm

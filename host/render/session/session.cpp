@@ -309,8 +309,7 @@ void render_nothing(const RenderJob& job, const EventReporter& reporter) {
 
 void write_report(const RenderJob& job, const film::CompiledFilm& film, const farm::HostMemory& shared,
                   const farm::FarmReport& report) {
-  const farm::HostMemory memory =
-      report.node_files == report.frames.size() ? farm::where_nodes_write(shared) : shared;
+  const farm::HostMemory memory = report.node_files == report.frames.size() ? farm::where_nodes_write(shared) : shared;
   const wire::FilmSettings& settings = film.view().settings();
   const report::ReportHead head{
       job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,

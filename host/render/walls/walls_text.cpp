@@ -50,7 +50,8 @@ std::string line_of(const Explanation& explanation) {
 std::string table_of(const Explanation& explanation) {
   std::string text = "  wall          alone (s)   without it (s)     gain (s)\n";
   for (const FoundWall& wall : explanation.walls)
-    text += "  " + padded(name_of(wall.wall), 12) + formatted(" %10.3g %16.3g %12.3g   ", wall.alone, wall.without, wall.gain) +
+    text += "  " + padded(name_of(wall.wall), 12) +
+            formatted(" %10.3g %16.3g %12.3g   ", wall.alone, wall.without, wall.gain) +
             std::string(kWallWords[static_cast<std::size_t>(wall.wall)].about) + "\n";
   return text + rule_of(explanation);
 }
@@ -72,8 +73,7 @@ nlohmann::ordered_json json_of(const Explanation& explanation) {
 Explanation explanation_of(const nlohmann::json& json) {
   Explanation explanation{json.at("seconds"), {}, {}, 0};
   for (const nlohmann::json& wall : json.at("walls"))
-    explanation.walls.push_back(
-        {wall_named(wall.at("wall")), wall.at("alone"), wall.at("without"), wall.at("gain")});
+    explanation.walls.push_back({wall_named(wall.at("wall")), wall.at("alone"), wall.at("without"), wall.at("gain")});
   if (json.contains("next")) {
     explanation.next = wall_named(json.at("next"));
     explanation.without_next = json.at("without_both");

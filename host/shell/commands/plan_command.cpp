@@ -101,8 +101,7 @@ double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
       planned.slots +
       static_cast<double>(wire::slot_bytes(asked.run.host_memory.format));  // and that of the next strip
   const double node = asked.run.node_memory * (nodes > 1 ? 2 : 1) + asked.run.shadow_memory + slots + line + kProgram;
-  const double host =
-      planned.is_host_apart() ? 0 : static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;
+  const double host = planned.is_host_apart() ? 0 : static_cast<double>(asked.run.host_memory.most_bytes()) + kProgram;
   return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) + host;
 }
 

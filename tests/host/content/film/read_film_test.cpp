@@ -126,7 +126,8 @@ TEST(ReadFilm, TellsWhatElseIsWrong) {
     return reported(R"({"frames": 1, "camera": {"eye": [0, 1, 0]}, "actors": [], "models": {"m": )" + model + "}}");
   };
   EXPECT_EQ(named(R"("/")"), "f.json:1: models.m: is '/', which is not a regular file (name a file on a disk)");
-  EXPECT_TRUE(document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: is '/dev/zero', which is not a regular file"));
+  EXPECT_TRUE(
+      document::holds(named(R"("/dev/zero")"), "f.json:1: models.m: is '/dev/zero', which is not a regular file"));
   EXPECT_TRUE(document::holds(named(R"({"from": "none.json", "proportions": {}})"),
                               "f.json:1: models.m.from: is 'none.json', which does not exist"));
 }

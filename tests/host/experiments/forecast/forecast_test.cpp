@@ -125,8 +125,8 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
 // contributors.
 TEST(Contributors, AreFewWhereTheHostBindsToo) {
   const test::TemporaryFolder folder;
-  const SimulatedFilm film(
-      "s3", "0-11", changed_platform(folder, "ipsc2", R"({"network": {"host_end": [[0, 0], [101, 0.17]]}})"));
+  const SimulatedFilm film("s3", "0-11",
+                           changed_platform(folder, "ipsc2", R"({"network": {"host_end": [[0, 0], [101, 0.17]]}})"));
   const Forecast chosen = film.forecast(32, 1);
   EXPECT_GT(chosen.run.host_busy, 0.97 * chosen.run.seconds);
   EXPECT_GT(chosen.contributors, 0);

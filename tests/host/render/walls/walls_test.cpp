@@ -52,8 +52,9 @@ TEST(Explained, WhereNoneGainsTheLongestIsNamed) {
   EXPECT_EQ(explanation.binding()->alone, 5);
   EXPECT_EQ(explanation.binding()->without, 4.99);
   EXPECT_EQ(explanation.next, Wall::host);
-  EXPECT_TRUE(table_of(explanation)
-                  .ends_with("\n  no gain is more than 2 %, so several walls bind together: the longest alone is first\n"));
+  EXPECT_TRUE(
+      table_of(explanation)
+          .ends_with("\n  no gain is more than 2 %, so several walls bind together: the longest alone is first\n"));
 }
 
 // Work of 5 s, half of it uneven, and then files of 3 s: without work the rendering is the shortest, but work that is
@@ -66,8 +67,9 @@ TEST(Explained, TheTableShowsTheRule) {
   const std::string table = table_of(explain(uneven, {Wall::compute, Wall::imbalance, Wall::frame, Wall::encoder}));
   EXPECT_NE(table.find("  encoder                3                5            3   encoding of files\n"), table.npos);
   EXPECT_NE(table.find("  compute              2.5                3          2.5   work of the nodes"), table.npos);
-  EXPECT_NE(table.find("\n  the wall with the greatest gain binds; compute gains only what evenly divided work takes\n"),
-            table.npos)
+  EXPECT_NE(
+      table.find("\n  the wall with the greatest gain binds; compute gains only what evenly divided work takes\n"),
+      table.npos)
       << table;
   EXPECT_TRUE(table_of(explain(toy, {Wall::sum})).ends_with("\n  the wall with the greatest gain binds\n"));
 }
