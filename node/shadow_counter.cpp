@@ -337,12 +337,11 @@ void ShadowCounter::count_casters(const geometry::Scene& scene, Light& light, Ca
 void ShadowCounter::find_reach(Light& light, std::span<const Casting> onto) const {
   light.reach.clear();
   for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {
-    bool any = false;
     float high_z = 0;
     for (const Casting seen : onto)
       for (const Stretch& stretch : light.seen_by_middle[number(seen)][face].all)
-        if (stretch.seen.active != 0) any = true, high_z = std::max(high_z, stretch.seen.box.high_z);
-    light.reach.push_back(any ? std::optional(shadow::reach_of(light.views, high_z)) : std::nullopt);
+        if (stretch.seen.active != 0) high_z = std::max(high_z, stretch.seen.box.high_z);
+    light.reach.push_back(shadow::reach_of(light.views, high_z));
   }
 }
 
@@ -384,31 +383,27 @@ bool ShadowCounter::meet_shafts(const shadow::ChunkCaster& caster, Light& light,
                                 Reach& reach) {
   bool any = false;
   for (std::size_t face = 0; face < light.views.middle.size(); ++face) {
-    const std::optional<shadow::ShaftReach>& face_reach = light.reach[face];
-    if (!face_reach) continue;
     const shadow::LightView& view = light.views.middle[face];
-    const bool is_near = shadow::is_near(light.views, face, *face_reach, caster.hull);
+    const bool is_near = shadow::is_near(light.views, face, light.reach[face], caster.hull);
     grid_.put(view, caster.hull);
     const GridBox box = grid_.put(view, *caster.surface);
     if (is_empty(box) && !is_near) continue;
     for (const Casting seen : onto) {
       Stretches& stretches = light.seen_by_middle[number(seen)][face];
-      any |=
-          is_near ? touch_all(stretches, reach.put) : touch(view, face_reach->shaft, caster, box, stretches, reach.put);
+      any |= is_near ? touch_all(stretches, reach.put)
+                     : touch(view, light.reach[face].shaft, caster, box, stretches, reach.put);
     }
   }
   return any;
 }
 
 bool ShadowCounter::touch_all(Stretches& stretches, Lines& put) {
-  bool any = false;
   for (std::size_t i = 0; i < stretches.all.size(); ++i) {
     if (stretches.all[i].seen.active == 0) continue;
     stretches.is_met[i] = 1;
     put.add(stretches.all[i].line);
-    any = true;
   }
-  return any;
+  return !stretches.points.empty();
 }
 
 // As shadow::Shafts does.
@@ -459,11 +454,10 @@ ShadowCounter::Reach ShadowCounter::reach_of(const shadow::Hull& hull, Light& li
   }
   if (!light.has_size()) reach.put = reach.lines;
   for (std::size_t face = 0; light.has_size() && face < light.views.middle.size(); ++face) {
-    if (!light.reach[face]) continue;
-    if (shadow::is_near(light.views, face, *light.reach[face], hull)) reach.lines = {0, height_ - 1};
+    if (shadow::is_near(light.views, face, light.reach[face], hull)) reach.lines = {0, height_ - 1};
     const GridBox box = grid_.put(light.views.middle[face], hull);
     for (const Casting seen : onto)
-      extend(light.seen_by_middle[number(seen)][face], box, light.reach[face]->shaft.spread, reach.lines);
+      extend(light.seen_by_middle[number(seen)][face], box, light.reach[face].shaft.spread, reach.lines);
   }
   return reach;
 }

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -84,9 +83,8 @@ class ShadowCounter {
     double points_each = 1;                                  // of the light, for which each of them stands
     std::array<std::vector<Stretches>, 2> seen{};            // by Casting, then by counted view
     std::array<std::vector<Stretches>, 2> seen_by_middle{};  // of a light with size, by Casting and face
-    // By face, of the casters that are counted; none: no points are seen there.
-    std::vector<std::optional<shadow::ShaftReach>> reach{};
-    std::array<double, 2> put{};  // points of a light with size that are put, by Casting
+    std::vector<shadow::ShaftReach> reach{};                 // by face, of the casters that are counted
+    std::array<double, 2> put{};                             // points of a light with size that are put, by Casting
 
     bool has_size() const { return views.points > 1; }
     // Whether its middle says which still points moving casters may shade.

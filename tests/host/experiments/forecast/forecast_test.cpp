@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -121,14 +120,12 @@ TEST(ForecastsOfClusters, AreAsSimulated) {
   }
 }
 
-// Messages of 170 ms to the host bind the film, however keyframes are drawn. The first picture comes sooner of few
-// contributors.
+// Messages of a second to the host bind the film, however keyframes are drawn: then few contributors spare it messages.
 TEST(Contributors, AreFewWhereTheHostBindsToo) {
   const test::TemporaryFolder folder;
   const SimulatedFilm film("s3", "0-11",
-                           changed_platform(folder, "ipsc2", R"({"network": {"host_end": [[0, 0], [101, 0.17]]}})"));
+                           changed_platform(folder, "ipsc2", R"({"network": {"host_end": [[0, 0], [101, 1]]}})"));
   const Forecast chosen = film.forecast(32, 1);
-  EXPECT_GT(chosen.run.host_busy, 0.97 * chosen.run.seconds);
   EXPECT_GT(chosen.contributors, 0);
   EXPECT_LE(chosen.contributors, 8);
   const auto first_picture = [](const farm::FarmReport& report) { return report.frames.front().seconds; };
@@ -331,21 +328,6 @@ constexpr const char *kSun = R"({"size": 0.53})", *kSky = R"({"size": 5})",
                      *kLamp = R"({"direction": null, "place": [-15, -10, 25], "size": 1})",
                      *kSpot =
                          R"({"direction": null, "place": [20, -50, 60], "at": [0, -10, 0], "cone": 60, "size": 2})";
-
-// As a panorama's eye in the midst of a film: most casters are behind it, and some sides of the lamp have no points.
-TEST(ForecastsOfLamps, LeaveOutWhatIsBehindTheEye) {
-  const test::TemporaryFolder folder;
-  const std::string examples = std::string(MARS_SOURCE_DIR) + "/examples";
-  std::filesystem::create_directory_symlink(examples + "/models", folder / "models");
-  std::ifstream file(examples + "/meadow.json");
-  nlohmann::json meadow = nlohmann::json::parse(file);
-  meadow["camera"] = {{"eye", {0, -3, 1.6}}, {"at", {0, -6, 1.6}}, {"fov", 90}};
-  meadow["lights"] = nlohmann::json::array({{{"place", {-1, -3, 3}}, {"size", 0.3}, {"shadow", true}}});
-  std::ofstream(folder / "behind.json") << meadow;
-  const SimulatedFilm film(folder / "behind", "0-0", "fat-tree");
-  const Forecast forecast = film.forecast(1, 1);
-  expect_near(forecast.run.seconds, film.render(forecast).total_seconds, 0.2, "seconds");
-}
 
 INSTANTIATE_TEST_SUITE_P(Examples, ForecastsOfShadows,
                          testing::Values(Lit{{"s1s", "0-0"}, ""}, Lit{{"s2s", "0-0"}, ""}, Lit{{"s3s", "0-11"}, ""},
