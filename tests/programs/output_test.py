@@ -63,7 +63,7 @@ class Output(SideBySide, ProgramTest):
                 for name in ("film.json", "box.json", "out/frame-0001.png"):
                     self.assertEqual((self.folder / name).read_bytes(), before[self.folder / name])
         for other in ("r", "./r"):
-            self.assertClear(self.mars(*render, "--report", "r", "--trace", other).stderr, "for the report and for the trace")
+            self.assertClear(self.mars(*render, "--report", "r", "--trace", other).stderr, "is named for two things that are written")
 
     def test_plain_lines_in_a_pipe(self):
         film = self.write("film.json", spinning_teapot(400, [160, 90]))

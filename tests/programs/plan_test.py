@@ -225,7 +225,7 @@ class Plans(ProgramTest):
         words = ["mars", "plan", CUBES, "--nodes", 1, "--platform"]
         apart, beside = (json.loads(self.succeed(*words, self.platform_with_costs(platform, host), "--json"))
                          for host in ({"apart": True}, {"apart": False}))
-        self.assertAlmostEqual(beside["machine_memory"] - apart["machine_memory"], apart["host_memory"] + (8 << 20), delta=1)
+        self.assertAlmostEqual(beside["machine_memory"] - apart["machine_memory"], beside["host_memory"] + (8 << 20), delta=1)
         self.assertRegex(self.succeed(*words, "fat-tree"), r"\na machine +[\d.]+ MB with its nodes\b(?!.*host)")
 
     def platform_with_costs(self, platform, host):

@@ -237,7 +237,9 @@ std::vector<std::string> others_files(const fs::path& folder, const Manifest& ma
   std::error_code none;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none)) {
     std::string name = entry->path().filename().string();
-    if (frame_of_file(manifest, name) && is_frame_file(entry->path()) && !read_mark(entry->path()))
+    const auto frame = frame_of_file(manifest, name);
+    if (frame && std::ranges::binary_search(manifest.frames, *frame) && is_frame_file(entry->path()) &&
+        !read_mark(entry->path()))
       names.push_back(std::move(name));
   }
   std::ranges::sort(names);

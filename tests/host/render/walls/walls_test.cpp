@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -65,8 +66,8 @@ TEST(Explained, TheTableShowsTheRule) {
     return (without.has(Wall::compute) ? 0 : even + unevenly) + (without.has(Wall::encoder) ? 0 : 3);
   };
   const std::string table = table_of(explain(uneven, {Wall::compute, Wall::imbalance, Wall::frame, Wall::encoder}));
-  EXPECT_NE(table.find("  encoder                3                5            3   encoding of files\n"), table.npos);
-  EXPECT_NE(table.find("  compute              2.5                3          2.5   work of the nodes"), table.npos);
+  for (const char* row : {"encoder +3 +5 +3 +encoding", "compute +2.5 +3 +2.5 +work"})
+    EXPECT_TRUE(std::regex_search(table, std::regex(row))) << table;
   EXPECT_NE(
       table.find("\n  the wall with the greatest gain binds; compute gains only what evenly divided work takes\n"),
       table.npos)
