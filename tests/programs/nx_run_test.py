@@ -490,7 +490,7 @@ class Ends(NxRun):
         self.assertClear(done.stderr, "unreadable: cannot be started: No such file or directory")
         self.assertEqual(done.returncode, 1)
         for words, says in [([], "PROGRAM is required"), (["--nodes", "0", "./node"], "--nodes: '0' is not a number from 1"),
-                            (["-n", "4x", "./node"], "--nodes: '4x' is not a number from 1"),
+                            (["-n", "4x", "./node"], "--nodes: '4x' is no whole number"),
                             (["--nodes", "5000", "./node"], "--nodes"), (["--over", "smoke", "./node"], "not auto or processes or mpi")]:
             done = self.run_nx(*words)
             self.assertClear(done.stderr, says)

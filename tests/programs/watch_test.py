@@ -3,7 +3,7 @@ come late and go early; nobody waits for it."""
 
 import subprocess
 
-from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, main
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, SECONDS, ProgramTest, main, spinning_teapot
 from png_reader import png_rows
 from watcher import MOVING, Watcher
 
@@ -60,9 +60,8 @@ class Watched(ProgramTest):
                     self.assertEqual(sorted(watcher.drawn), list(range(30)))
 
     def test_nodes_may_have_no_lines_of_a_keyframe(self):
-        """As where a picture is empty: the first node has all of its lines."""
-        film = self.folder / "empty.json"
-        film.write_text('{"frames": 2, "size": [96, 54], "camera": {"eye": [3, -6, 2]}}')
+        """As where the camera looks away: the first node has all lines of an empty picture."""
+        film = self.write("away.json", spinning_teapot(2, [96, 54]) | {"camera": {"eye": [0, -20, 0], "at": [0, -40, 0]}})
         for nodes in [1, 2, 3]:
             with self.subTest(nodes=nodes):
                 _, seen = self.watch(film, "--nodes", nodes, "--groups", 1, "--no-coherence", "--backend", "threads")

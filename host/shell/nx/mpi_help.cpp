@@ -36,8 +36,9 @@ bool is_help(std::string_view block) {
 }
 
 bool is_remark(std::string_view line) {
-  constexpr std::array<std::string_view, 4> kRemarks{"sent help message help-", "orte_base_help_aggregate",
-                                                     "total processes failed to start", "total processes killed"};
+  constexpr std::array<std::string_view, 5> kRemarks{"sent help message help-", "orte_base_help_aggregate",
+                                                     "total processes failed to start", "total processes killed",
+                                                     "] ORTE_ERROR_LOG: "};
   return holds_one_of(line, kRemarks);
 }
 
