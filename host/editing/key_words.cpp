@@ -132,7 +132,7 @@ std::string example_of(const keys::Key& key, const Json& form) {
   return std::string(key.name) + "=" + words;
 }
 
-// What `text`, of the word KEY=VALUE, says.
+// The value that `text`, of the word KEY=VALUE, stands for.
 Json value_of(const keys::Key& key, std::string text, const std::string& word) {
   if (key.type == "flag") return flag_of(text);
   if (key.type == "text" || key.type == "file" || key.type == "choice") return text;

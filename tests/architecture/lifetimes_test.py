@@ -1,7 +1,8 @@
-"""What keeps a reference, or returns one, refuses temporaries. GCC 12 warns of few that are gone when they are used,
-and sanitizers see only what a test makes. So where a class of a header keeps a `const T&`, a pointer or a view of what
-its constructor is given, and where a function of a header may return a reference or pointer to what it is given, there
-is an overload for temporaries, `const T&&`, which is deleted; for views it takes the std::string or std::vector itself.
+"""Classes that keep a reference, and functions that return one, refuse temporaries. GCC 12 warns of few that are gone
+when they are used, and sanitizers see only what a test makes. So where a class of a header keeps a `const T&`, a
+pointer or a view of what its constructor is given, and where a function of a header may return a reference or pointer
+to what it is given, there is an overload for temporaries, `const T&&`, which is deleted; for views it takes the
+std::string or std::vector itself.
 
 The rule is for private members in headers. The classes of one source file are used in sight of their constructors,
 mostly on one line; an aggregate lengthens the life of what its braces hold; and kernels share no class with others."""

@@ -170,7 +170,7 @@ def copy_sources(root, folder, numbered):
 
 
 def kept_results(path, digest):
-    """What an earlier run has written of the same sources; nothing where it wrote none that can be read."""
+    """The results that an earlier run has written of the same sources; none where they cannot be read."""
     nothing = {"digest": digest, "reference": {}, "mutants": {}}
     if not path.exists():
         return nothing

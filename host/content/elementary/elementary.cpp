@@ -69,7 +69,7 @@ constexpr std::array kSine{1.0 / 120,
 constexpr std::array kCosine{1.0 / 24,          -1.0 / 720,           1.0 / 40320,           -1.0 / 3628800,
                              1.0 / 479001600.0, -1.0 / 87178291200.0, 1.0 / 20922789888000.0};
 
-// Of angles up to pi/4.
+// Both take angles up to pi/4.
 Pair sine_of(Pair angle) {
   const double x = angle.high, square = x * x, cube = square * x;
   const double curve = kThird * cube + (cube * square * polynomial(kSine, square) - 0.5 * square * angle.low);
@@ -103,7 +103,7 @@ constexpr Pair kArcs[] = {{0, 0},
                           {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}};
 constexpr std::array kArc{-1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
-// Of 0 to 1: atan x = atan c + atan((x - c) / (1 + c x)).
+// Takes 0 to 1: atan x = atan c + atan((x - c) / (1 + c x)).
 Pair arc_of(Pair x) {
   const double eighths = nearest(8 * x.high), near = eighths / 8;
   const Pair rest = near == 0 ? x : (x - Pair{near}) / (Pair{1} + Pair{near} * x);

@@ -25,11 +25,11 @@ double exp(double x);
 double exp2(double x);
 // NaN where x < 0, minus infinity at 0.
 double log10(double x);
-// Of a negative base: NaN but for whole exponents.
+// A negative base gives NaN but for whole exponents.
 double pow(double base, double exponent);
 double cbrt(double x);
 
-// Of lengths from 1e-150 to 1e150.
+// Takes lengths from 1e-150 to 1e150.
 double hypot(double x, double y);
 
 }  // namespace mars::elementary

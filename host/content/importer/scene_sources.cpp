@@ -17,7 +17,7 @@ Assimp::IOStream* SceneSources::Open(const char* called, const char* mode) {
   if (called_ == called && !unpacked_.empty())
     return new Assimp::MemoryIOStream(reinterpret_cast<const std::uint8_t*>(unpacked_.data()), unpacked_.size());
   const char* name = called_ == called ? mesh_.c_str() : called;
-  const fs::path from_folder = fs::path(name).lexically_relative(folder_);  // "" where it cannot be told
+  const fs::path from_folder = fs::path(name).lexically_relative(folder_);  // "" where no path leads there
   if (mesh_ != name) companion(mesh_, from_folder.empty() ? name : from_folder.string());
   std::error_code none;
   const fs::file_status status = fs::status(name, none);

@@ -29,8 +29,8 @@ struct HostMemory {
 HostMemory share_host_memory(std::uint64_t budget, const wire::FilmSettings& film, wire::PixelFormat format,
                              std::uint32_t nodes, std::uint32_t groups, std::uint32_t sink_threads);
 
-// Of the shared memory, what the host uses where nodes write all files: no strips come, and of the buffers there is
-// only the one that the sinks begin with.
+// The part of the shared memory that the host uses where nodes write all files: no strips come, and there is only the
+// buffer with which the sinks begin.
 HostMemory where_nodes_write(HostMemory shared);
 
 }  // namespace mars::farm

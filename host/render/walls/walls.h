@@ -73,8 +73,8 @@ using SecondsWithout = std::function<double(Walls)>;
 // The same of several, each by its place.
 using AllSecondsWithout = std::function<std::vector<double>(const std::vector<Walls>&)>;
 
-// Of a rendering's time: where no wall's gain is more, several bind together, and the one that is longest alone is
-// named.
+// A part of a rendering's time: where no wall's gain is more, several bind together, and the one that is longest alone
+// is named.
 inline constexpr double kNoGain = 0.02;
 
 struct FoundWall {

@@ -87,8 +87,8 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
   return experiments::read_platform(name, folder);
 }
 
-// Of the nodes of one machine and the host, where it is on this machine. Nodes of one machine have the memory of two
-// frames.
+// Bytes of the nodes of one machine and of the host, where it is on this machine. Nodes of one machine have the memory
+// of two frames.
 double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
   constexpr double kProgram = 8 << 20;  // and MPI
   constexpr double kOfSample = 8 + 44;  // of the line that is drawn
@@ -105,7 +105,7 @@ double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
   return nodes * node + groups * asked.run.still_memory + static_cast<double>(film.block().size()) + host;
 }
 
-// What processes of this machine may use, where it is the one that would render: of a node MARS_MEMORY, if it is set.
+// Sets what processes of this machine may use, where this machine would render: MARS_MEMORY, if it is set, is a node's.
 void use_memory_of_here(const options::RenderOptions& options, experiments::Platform& platform) {
   if (!options.platform.empty() && options.platform != kHere) return;
   platform.memory = messages::read_settings().memory.value_or(platform.memory);

@@ -141,14 +141,14 @@ void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words
   command.add_flag("--window", words->window, "Play in a window instead of the terminal. Example: --window");
 }
 
-// The first of these options that was given; "": none. Not every command has all.
+// The first of `names` that was given; "": none. Not every command has all.
 std::string first_given(cli::Command command, std::initializer_list<std::string_view> names) {
   for (const cli::Option& each : command.options())
     if (each.given() && std::ranges::find(names, each.name()) != names.end()) return each.name();
   return "";
 }
 
-// What would be ignored is refused.
+// Refuses options that would be ignored.
 void check_output(cli::Command command, const PreviewWords& words) {
   const std::filesystem::path& file = words.write.file;
   if (words.window && !file.empty())

@@ -203,7 +203,7 @@ void render(options::RenderOptions options, const std::filesystem::path& self, c
   if (supervisor.rendered()) display.print(account_of(supervisor, options.folder, seconds_since(started)));
 }
 
-// What a process that was killed has torn in a working folder is drawn again: nobody could repair it. False where all
+// Frames that a killed process has torn in a working folder are drawn again: nobody could repair it. False where all
 // frames there are whole.
 bool remove_damaged_frames(const std::string& folder, Display& display) {
   const sinks::Verdict verdict = sinks::verify_folder(folder);
@@ -241,7 +241,7 @@ void render_panorama(const options::RenderOptions& options, const std::filesyste
       panorama.faces(), draw, [&] { panorama.join(); }, display);
 }
 
-// Of the folder, those that are not there yet.
+// Draws those frames of the folder that are not there yet.
 void render_frames(const options::RenderOptions& options, const std::filesystem::path& self, const Adviser& adviser,
                    Display& display) {
   if (const auto there = frames_there(options)) {

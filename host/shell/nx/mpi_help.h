@@ -1,4 +1,4 @@
-// What Open MPI's mpirun says of its own accord on standard error: blocks of help between lines of dashes, which are
+// Words that Open MPI's mpirun adds on standard error: blocks of help between lines of dashes, which are
 // held back for the one line that a person needs, and remarks about these. What programs print goes through.
 #pragma once
 
@@ -11,7 +11,7 @@ class MpiHelp {
   // `has_host`: rank 0 is the host, else it is node 0.
   explicit MpiHelp(bool has_host) : has_host_(has_host) {}
 
-  // What of the text is to be shown once this line, without its end, has come.
+  // The part of the text that is to be shown once this line, without its end, has come.
   std::string take(const std::string& line);
   // The rest when nothing more comes: what happened, in a line; "" where the exit code says it, or the programs did.
   // Help that is not understood as it is.

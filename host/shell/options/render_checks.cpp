@@ -39,7 +39,7 @@ void refuse_name_of_file(const RenderOptions& options) {
                 video ? "videos are " + videos::endings_text() : remedy);
 }
 
-// What says how files are named and which are kept means nothing where there are none.
+// Options of files' names, and of which files are kept, mean nothing where there are none.
 void refuse_words_of_no_files(const RenderOptions& options) {
   if (options.sink == SinkKind::files) return;
   const char* word = !options.name.empty()       ? "--name"

@@ -97,7 +97,7 @@ export class Hand {
                    falloff: this.state.falloff}, event);
   }
 
-  // What the first finger had begun leaves no trace.
+  // The gesture of the first finger leaves no trace.
   #pinch() {
     this.letGo();
     this.#gesture = {kind: "orbit", spread: spreadOf(...this.#fingers.values())};

@@ -1,4 +1,4 @@
-// What a reload brings back: what each view shows, and what is selected. This browser keeps it for each film and model,
+// A reload brings back what each view shows, and what is selected. This browser keeps it for each film and model,
 // by the file's name.
 
 export class Kept {
@@ -26,7 +26,7 @@ export class Kept {
     this.#select(kept.selected);
   }
 
-  // What is still there.
+  // Takes those that are still there.
   #select({actor, joint, thing}) {
     if (actor !== null) this.edits.wanted = {actor, joint};
     else if (thing === "camera" || this.state.project.lights?.some((light) => light.thing === thing)) this.edits.selectThing(thing);

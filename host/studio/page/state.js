@@ -2,7 +2,7 @@
 // them: "project", "poses", "selected", "tool", "axes", "view" (the active one), "shown" (by a view), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
 // "curves", "ghosts", "marks", "falloff", "pins".
 
-// What rings turn about, and how people read it.
+// Axes about which rings turn, and how people read them.
 export const kRingAxes = [["numbers", "The joint's three numbers, within their limits"], ["joint", "The joint's own axes, as they stand"],
                           ["parent", "The axes of its parent"], ["world", "The axes of the world"]];
 

@@ -18,7 +18,7 @@ namespace mars::studio {
 enum class Tool { none, turn, move, box, points, reach };
 inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points", "reach"};
 
-// What rings turn about: each of the three numbers of a pose, within its limits; the joint's own axes as they stand;
+// Rings turn about each of the three numbers of a pose, within its limits; the joint's own axes as they stand;
 // its parent's; the world's. Rings of a joint with at most one freedom are by its number, whatever is chosen.
 enum class RingAxes { numbers, joint, parent, world };
 inline constexpr const char* kRingAxes[] = {"numbers", "joint", "parent", "world"};

@@ -30,8 +30,8 @@ std::string text_of(const Project& project, const Selection& selection);
 
 // The joint, or the nearest above it that can turn; kNone where none can.
 std::size_t turning_joint(const modeler::Model& model, std::size_t joint);
-// What a click on it selects. In a film joints can only turn: one that cannot gives way to the nearest above it that
-// can, else to the actor as a whole.
+// The selection that a click on it makes. In a film joints can only turn: one that cannot gives way to the nearest
+// above it that can, else to the actor as a whole.
 Selection clicked(const Project& project, const Selection& picked);
 
 struct Picked {

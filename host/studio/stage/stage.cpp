@@ -239,7 +239,7 @@ class StageOfPages : public Stage {
     return held;
   }
 
-  // What it picks is selected, or what can turn in its place, and follows the hand if it can.
+  // The joint that it picks is selected, or the one that can turn in its place, and follows the hand if it can.
   Selection take_what_is_at(const PageView& view, const glm::dvec2& pixel) {
     const Picked picked = pick(project_, moments_, screen_of(view), pixel);
     const Selection& held = picked.selection;

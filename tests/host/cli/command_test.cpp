@@ -1,4 +1,4 @@
-// What is wrong with words of a command line, in words of ours.
+// Mistakes of a command line are explained in MARS's own words.
 #include "host/cli/command.h"
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::string refusal(std::vector<const char*> words) {
   return testing::internal::GetCapturedStderr();
 }
 
-TEST(CommandWords, ThatAreNoNumbersAreToldSo) {
+TEST(CommandWords, ThatAreNoNumbersAreExplained) {
   const std::pair<std::vector<const char*>, const char*> wrong[] = {
       {{"--port", "abc"}, "--port: 'abc' is no whole number"},
       {{"--port", "3.5"}, "--port: '3.5' is no whole number"},
@@ -49,9 +49,9 @@ TEST(CommandWords, ThatAreNoNumbersAreToldSo) {
       {{"--limit", "x", "1", "y"}, "--limit: write AXIS LEAST MOST, as in --limit x 1 2"},
       {{"--count"}, "--count: N is missing"},
   };
-  for (const auto& [words, told] : wrong) {
+  for (const auto& [words, says] : wrong) {
     const std::string text = refusal(words);
-    EXPECT_NE(text.find(told), std::string::npos) << text;
+    EXPECT_NE(text.find(says), std::string::npos) << text;
     for (const char* foreign : {"Could not convert", "not in range", "required", "not in {"})
       EXPECT_EQ(text.find(foreign), std::string::npos) << text;
   }

@@ -1,4 +1,4 @@
-// What words make a film or model name lies below the studio's folder; what it named before stays.
+// Files that words make a film or model name lie below the studio's folder; those that it named before stay.
 #include "host/editing/new_files.h"
 
 #include <gtest/gtest.h>

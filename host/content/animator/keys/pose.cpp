@@ -89,7 +89,7 @@ void require_own_turn(const PartSetting& setting, const std::string& text, const
     throw Failure("is no turn about one axis", "'" + text + "'", "with --local write it like elbow.x+=30");
 }
 
-// Of what matches a pattern, `local` turns what turns.
+// `local` turns those parts of a pattern's matches that turn.
 std::vector<PartSetting> settings_of(const std::string& text, const Thing& thing, const PoseManner& manner) {
   std::vector<PartSetting> settings = read_settings(text, thing);
   const auto turns = [&](const PartSetting& setting) { return joint_of(thing.part(setting.part)) != nullptr; };

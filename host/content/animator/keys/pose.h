@@ -1,5 +1,5 @@
 // Posing: a figure, the camera, a light or a material, set at a frame by what a person wants of its parts; the limits
-// of joints are held. The thesis's quadruple (model, segment, axis, angle) is one of these settings that is `local`.
+// of joints are held. The thesis's quadruple (model, segment, axis, angle) is a setting that is `local`.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ struct Turned {
 // The joint's own axis (0 x, 1 y, 2 z), a unit vector in its parent's frame, as the pose has turned it.
 glm::dvec3 present_axis(const modeler::Joint& joint, const glm::dvec3& pose, int axis);
 
-// The joint turned by so many degrees about a unit vector in its parent's frame. Of the poses that give the same
+// The joint turned by a number of degrees about a unit vector in its parent's frame. Of the poses that give the same
 // orientation the result is one within the limits if there is one, and among such the nearest to `near` (pose_of()).
 Turned turned_about(const modeler::Joint& joint, const glm::dvec3& pose, const glm::dvec3& axis, double degrees,
                     const glm::dvec3& near);

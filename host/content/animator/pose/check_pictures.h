@@ -1,4 +1,4 @@
-// What check.h says of a film's pictures.
+// Remarks of check.h about a film's pictures.
 #pragma once
 
 #include <string>

@@ -70,7 +70,7 @@ void add_pairs(const Standing& actor, const Standing& other, Pairs& pairs) {
       if (!flat(box) || !flat(obstacle)) pairs.emplace_back(box, obstacle);
 }
 
-// Those of the other at the frame and before it, of each so many frames.
+// Adds the pairs of the other at the frame and at every `step`-th frame before it.
 void add_pairs(const Standing& actor, const Film& film, std::size_t other, std::uint32_t frame, std::uint32_t step,
                Pairs& pairs) {
   Standing last;

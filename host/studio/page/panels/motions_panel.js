@@ -19,7 +19,7 @@ const kEnds = new Set(["commit", "drag", "undo", "redo", "cancel"]);  // message
 // These units show in the field.
 const kShortUnits = {S: "s", DEGREES: "\u00b0", D: "units", H: "units", Z: "units"};
 
-// What is done where nothing is given, if it is an amount: "2", "0.62 of the leg".
+// The default of a number that is left out, if it is an amount: "2", "0.62 of the leg".
 const amountIn = (meaning) => /default: (-?\d[^;,]*)/.exec(meaning)?.[1];
 
 function titleOf({value, meaning}) {

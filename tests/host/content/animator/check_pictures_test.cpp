@@ -1,4 +1,4 @@
-// What of a film's pictures is worth a word: shadows that are lost or stand off, and places that are not drawn.
+// Remarks about a film's pictures: shadows that are lost or stand off, and places that are not drawn.
 #include "host/content/animator/pose/check_pictures.h"
 
 #include <gtest/gtest.h>

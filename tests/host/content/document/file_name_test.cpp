@@ -15,7 +15,7 @@ namespace {
 
 class FileNames : public testing::Test {
  protected:
-  // What a film in the folder names so.
+  // Reads what a film in the folder names so.
   std::filesystem::path named(const std::string& json) const {
     const Document film("{\n\"audio\": " + json + "}", (folder_ / "film.json").string());
     return read_file_name(*film.root().find("audio"));

@@ -34,7 +34,7 @@ Numbers even(double from, double to) {
   return [=](auto& random) { return std::uniform_real_distribution(from, to)(random); };
 }
 
-// Of both signs, from 2^from to 2^to.
+// Numbers of both signs, from 2^from to 2^to.
 Numbers of_all_sizes(double from, double to) {
   return [=](auto& random) {
     const double size = std::exp2(std::uniform_real_distribution(from, to)(random));
