@@ -381,11 +381,18 @@ bool has_frames(const fs::path& folder) {
 }
 
 bool remove_folder(const fs::path& folder) {
+  clear_ended_runs(folder);
   std::error_code none;
   std::vector<fs::path> files;
   for (fs::directory_iterator entry(folder, none), end; !none && entry != end; entry.increment(none))
     files.push_back(entry->path());
-  const std::optional<Manifest> manifest = read_frames_json(folder);
+  std::optional<Manifest> manifest;
+  try {
+    manifest = read_frames_json(folder);
+  } catch (const DamagedManifest&) {  // frames that have names of MARS's choice are known without it
+  } catch (const Failure&) {
+    return false;
+  }
   for (const fs::path& file : files) {
     const std::string name = file.filename().string();
     const bool own = is_own_name(name) || (manifest && frame_of_file(*manifest, name));

@@ -155,8 +155,9 @@ void clear_ended_runs(const std::filesystem::path& folder, const std::string& en
 // Whether files there say that they are frames.
 bool has_frames(const std::filesystem::path& folder);
 
-// Removes the folder with its frames. False, and all stays, where somebody renders there, or has put something else
-// there, as a job of Slurm its output.
+// Removes the folder with its frames, and with what runs have left there that were killed. False, and all stays, where
+// somebody renders there, or has put something else there, as a job of Slurm its output, or where frames.json cannot be
+// read.
 bool remove_folder(const std::filesystem::path& folder);
 
 // With what runs that are not finished have rendered so far. Throws Failure where there is none, or no sound one.

@@ -193,6 +193,36 @@ TEST(FrameFolder, ClearingMakesNoFolder) {
   EXPECT_EQ(folder.entries(), 0u);
 }
 
+TEST(FrameFolder, IsRemovedWithWhatAKilledRunLeft) {
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "out";
+  fill(path, small_manifest(), 7);
+  EXPECT_TRUE(remove_folder(path));
+  run_and_kill(path, small_manifest(), {1, 2});
+  EXPECT_TRUE(remove_folder(path));
+  fill(path, small_manifest(), 7);
+  document::write_whole_file(path / "frames.json", "{");
+  EXPECT_TRUE(remove_folder(path));
+  EXPECT_EQ(folder.entries(), 0u);
+}
+
+TEST(FrameFolder, IsNotRemovedWhereOthersHaveSomething) {
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "out";
+  fill(path, small_manifest(), 7);
+  {
+    const FrameFolder running(path, of_frames({3}));
+    EXPECT_FALSE(remove_folder(path));
+  }
+  document::write_whole_file(path / "slurm-7.out", "");
+  EXPECT_FALSE(remove_folder(path));
+  fs::remove(path / "slurm-7.out");
+  fs::remove(path / "frames.json");
+  fs::create_directory(path / "frames.json");
+  EXPECT_FALSE(remove_folder(path)) << "nobody knows what it is";
+  EXPECT_TRUE(fs::exists(path / "frame-0002.png"));
+}
+
 TEST(FrameFolder, PartsOfARunThatGoesOnStay) {
   const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), of_frames({1}));
