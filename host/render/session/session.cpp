@@ -201,13 +201,10 @@ farm::FarmReport render_frames(const film::CompiledFilm& film, const farm::Plan&
 // What takes the place of the film or of what the folder keeps would destroy it.
 void refuse_outputs(const RenderJob& job) {
   namespace fs = std::filesystem;
-  const auto place_of = [](const std::string& file) { return fs::weakly_canonical(fs::absolute(file)); };
   std::error_code none;
   sinks::Manifest names;
   sinks::set_form(names, job.form);
   names.film_frames = wire::kMostFrames;  // the film's are not known yet
-  if (!job.report.empty() && !job.trace.empty() && place_of(job.report) == place_of(job.trace))
-    throw Failure("is named for the report and for the trace", job.report, "give each a file of its own");
   for (const fs::path output : {job.report, job.trace}) {
     document::refuse_same_file(job.film, output);
     const fs::path folder = output.has_parent_path() ? output.parent_path() : ".";

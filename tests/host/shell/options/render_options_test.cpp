@@ -311,6 +311,9 @@ TEST(RenderOptions, WhatIsWrittenHasAFileOfItsOwn) {
   std::ofstream(hosts) << "n1 slots=2\n";
   EXPECT_TRUE(document::holds(refusal({"--hostfile", hosts, "--report", hosts}), "is the file that is read"));
   EXPECT_EQ(refusal({"-o", "r.mp4", "--report", "r.json", "--trace", "t.json"}), "");
+  const std::string too_long(300, 'r');
+  EXPECT_EQ(refusal({"--report", too_long}), "") << "writing it fails, with a remedy";
+  EXPECT_TRUE(document::holds(refusal({"--report", too_long, "--trace", "./" + too_long}), "for two things"));
 }
 
 TEST(RenderOptions, AVideoAloneHasAFolderOfItsOwn) {
