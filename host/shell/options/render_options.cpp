@@ -468,6 +468,9 @@ void resolve(cli::Command app, RenderOptions& options) {
     throw Failure("the files have two names, " + document::in_quotes(options.folder) + " and " +
                       document::in_quotes(options.name),
                   "", "leave out --name, or name a folder alone with -o");
+  if (options.sink != SinkKind::files)
+    throw Failure(document::in_quotes(options.folder) + " names files, of which --sink none writes none", "",
+                  "leave out -o, or --sink none");
   take_name(folder.filename().string(), has_format, options);
   options.folder = folder.has_parent_path() ? folder.parent_path().string() : ".";
 }

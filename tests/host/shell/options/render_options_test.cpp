@@ -293,6 +293,8 @@ TEST(RenderOptions, WordsAboutFilesNeedFiles) {
       EXPECT_TRUE(document::holds(reading.printed, more[0] + " is about files, of which --sink none writes none"))
           << reading.printed;
     }
+  const Reading reading = read(Program::mars, {"film.json", "-o", "a/shot_##.png", "--sink", "none"});
+  EXPECT_TRUE(document::holds(reading.printed, "'a/shot_##.png' names files, of which --sink none writes none"));
 }
 
 TEST(RenderOptions, WhatIsWrittenHasAFileOfItsOwn) {
