@@ -20,7 +20,8 @@ void check_order(const Order& order, const std::optional<images::PictureSize>& s
 // The line for who waits for another process that makes the file.
 std::string waiting_text(const Order& order);
 
-// Throws Failure as check_order(), and where ffmpeg fails; then the file is as it was.
+// Replaces a file that is there: check_order() refuses others' files. Throws Failure where the form makes no sense, or
+// ffmpeg is missing, lacks the encoder or fails; then the file is as it was.
 void write_video(const Source& source, const Order& order, const Listener& listener);
 
 }  // namespace mars::videos

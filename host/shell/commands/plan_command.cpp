@@ -54,7 +54,7 @@ struct Planned {
   std::vector<forecast::Forecast> otherwise;  // with files written by others, where that was compared
   std::vector<walls::Explanation> walls;      // of by_nodes, where they are to be explained
   double slots;                               // bytes of a node's strips
-  double machine = 0;                         // bytes that all processes of a nodes' machine use
+  double machine = 0;                         // bytes that all processes of one machine of nodes use
 
   // Of each number of nodes.
   void take_sooner() {
@@ -87,8 +87,8 @@ experiments::Platform platform_of(const options::RenderOptions& options, const N
   return experiments::read_platform(name, folder);
 }
 
-// Bytes of the nodes of one machine and of the host, where it is on this machine. Nodes of one machine have the memory
-// of two frames.
+// Bytes of the nodes of one machine, and of the host where that is on the same machine. Nodes of one machine have the
+// memory of two frames.
 double machine_bytes(const Planned& planned, const film::CompiledFilm& film) {
   constexpr double kProgram = 8 << 20;  // and MPI
   constexpr double kOfSample = 8 + 44;  // of the line that is drawn

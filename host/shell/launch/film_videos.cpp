@@ -59,7 +59,7 @@ FilmVideos::FilmVideos(const options::RenderOptions& options, Display& display) 
     document::refuse_same_file(options.film, file);
     videos::check_order(order_of(file), options.size);
   }
-  // All processes enter them in the order of their places: no two wait for one another.
+  // All processes enter working folders in the order of the videos' places: no two wait for one another.
   std::map<fs::path, std::string> files;
   for (const std::string& file : options.videos) files.emplace(place_of(file), file);
   for (const auto& [place, file] : files)
@@ -138,7 +138,7 @@ void FilmVideos::make(const std::string& file) {
                  bytes_text(fs::file_size(file)) + ", " + document::formatted("%.1f", seconds.count()) + " seconds");
 }
 
-// Also of frames and pieces that processes that were killed have left, of whatever film: the videos are there.
+// Removes also frames and pieces that killed processes have left, of whatever film: the videos are there.
 void FilmVideos::empty_work_folders() {
   for (const auto& [place, work] : work_) {
     const fs::path frames = options::frames_in(work.path());

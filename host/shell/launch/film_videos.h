@@ -19,13 +19,13 @@ namespace mars::launch {
 
 class FilmVideos {
  public:
-  // Waits until no other process makes one of them. Throws Failure, before anything is started, where one of them
+  // Waits until no other process makes one of the videos. Throws Failure, before anything is started, where a video
   // cannot be made (videos::check_order), or is the film. Both must outlive it.
   FilmVideos(const options::RenderOptions& options, Display& display);
   FilmVideos(const options::RenderOptions&&, auto&&...) = delete;
 
-  // Whether all are there, of this film, whose frames nobody asks for; then what processes that were killed have left
-  // in their working folders is removed. May compile the film.
+  // Whether all videos are there, of this film, and its frames are not asked for; if so, removes what killed processes
+  // have left in the videos' working folders. May compile the film.
   bool are_there();
   // Of the folder's frames; those that are there already are left alone. Throws Failure where a frame is missing or a
   // video cannot be made; then the same command goes on.

@@ -1,5 +1,6 @@
-// Words that Open MPI's mpirun adds on standard error: blocks of help between lines of dashes, which are
-// held back for the one line that a person needs, and remarks about these. What programs print goes through.
+// Words that Open MPI's mpirun adds on standard error: blocks of help between lines of dashes, which are held back for
+// the one line that a person needs, and remarks about such blocks. Lines that programs print go through, each as soon
+// as it is whole.
 #pragma once
 
 #include <string>
@@ -13,8 +14,8 @@ class MpiHelp {
 
   // The part of the text that is to be shown once this line, without its end, has come.
   std::string take(const std::string& line);
-  // The rest when nothing more comes: what happened, in a line; "" where the exit code says it, or the programs did.
-  // Help that is not understood as it is.
+  // The rest, when nothing more comes: what happened, in a line; "" where the exit code says so, or the programs did.
+  // Help that is not understood comes as mpirun wrote it.
   std::string finish() const;
 
  private:

@@ -1,5 +1,5 @@
-// A reload brings back what each view shows, and what is selected. This browser keeps it for each film and model,
-// by the file's name.
+// A reload brings back what each view shows, and what is selected. The browser keeps both for each film and model, by
+// the file's name.
 
 export class Kept {
   #file = null;
@@ -26,7 +26,7 @@ export class Kept {
     this.#select(kept.selected);
   }
 
-  // Takes those that are still there.
+  // Selects what is still there.
   #select({actor, joint, thing}) {
     if (actor !== null) this.edits.wanted = {actor, joint};
     else if (thing === "camera" || this.state.project.lights?.some((light) => light.thing === thing)) this.edits.selectThing(thing);

@@ -227,7 +227,8 @@ glm::dvec3 pose_towards(const Posed& joint, const glm::dvec3& place, const glm::
           (posed.pose[i] <= axis.limits.lower && wanted < 0) || (posed.pose[i] >= axis.limits.upper && wanted > 0);
       if (!axis.limits.free() || stops) slopes[i] = glm::dvec2(0);
     }
-    // An axis near which the place lies would turn far for little: where others are at their limits, to its own.
+    // The place hardly moves about an axis that it is near. Such an axis rests, or it would turn the joint to its limit
+    // as soon as other axes are at theirs.
     for (int i = 0; i < 3; ++i)
       if (levers[i] < kTwist * *std::ranges::max_element(levers)) slopes[i] = glm::dvec2(0);
     glm::dmat3 normal(0);
