@@ -37,7 +37,11 @@ std::string remedy_in(const fs::path& folder) {
 
 FolderReader::FolderReader(fs::path folder, const Exposing& exposing)
     : folder_(std::move(folder)), manifest_(sinks::read_manifest(folder_)), exposing_(exposing) {
-  if (!images::is_exr(manifest_.format)) return;
+  if (!images::is_exr(manifest_.format)) {
+    if (exposing_ == Exposing()) return;
+    throw Failure("its frames are pictures that are exposed already, not light", folder_.string(),
+                  "leave out --exposure, --curve and --ocio, or render with --format exr");
+  }
   film_ = film_in(folder_, manifest_);
   if (!film_ && !(exposing_.stops && (exposing_.curve || exposing_.view)))
     throw Failure("its frames are light, and film.mars, which says how to expose it, is not there or not theirs",

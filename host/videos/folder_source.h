@@ -26,8 +26,8 @@ struct Exposing {
 
 class FolderReader {
  public:
-  // Throws Failure where the folder has no manifest; and, where its frames are light, no film.mars of theirs, and
-  // `exposing` does not say all.
+  // Throws Failure where the folder has no manifest; where its frames are light, but there is no film.mars of theirs,
+  // and `exposing` does not say all; and where they are no light, but `exposing` says something.
   explicit FolderReader(std::filesystem::path folder, const Exposing& exposing = {});
 
   const sinks::Manifest& manifest() const { return manifest_; }

@@ -235,6 +235,8 @@ class Rendered(VideoTest):
                              "exposed as the film says")
         self.succeed("mars", "play", "light", "-o", "dark.apng", "--exposure", "-3", "--curve", "none")
         self.assertLess(sum(map(sum, self.decoded("dark.apng")[0])), sum(map(sum, shown[0])) / 2)
+        for words in [["--exposure", "0"], ["--curve", "agx"]]:
+            self.fail_clearly(1, "play", "out", "-o", "b.mp4", *words, says="exposed already")
         (self.folder / "light/film.mars").unlink()
         self.fail_clearly(1, "play", "light", "-o", "b.mp4", says="--exposure 0 --curve filmic")
 
