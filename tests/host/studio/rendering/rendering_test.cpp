@@ -14,6 +14,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/images/picture_file.h"
+#include "tests/host/content/document/failure_of.h"
 #include "tests/sanitizers/sanitized.h"
 #include "tests/temporary_folder.h"
 
@@ -162,6 +163,18 @@ TEST_F(RenderingTest, WatchesAFolderThatIsComplete) {
   render({{"frames", "5-6"}});
   EXPECT_TRUE(is("starting"));
   EXPECT_EQ(last("rendering")["done"], 0) << "of this rendering, not of what was watched";
+}
+
+TEST_F(RenderingTest, RefusesOptionsThatItDoesNotHave) {
+  const auto failure_with = [&](const Json& options) {
+    return document::failure_of([&] { say({{"do", "render"}, {"options", options}}); });
+  };
+  for (const char* name : {"overwrite", "Nodes", "--nodes"})
+    EXPECT_TRUE(document::holds(failure_with({{name, 1}}), "is no option of renderings by pages")) << name;
+  EXPECT_TRUE(document::holds(failure_with({{"alpha", "yes"}}), "alpha is neither true nor false"));
+  EXPECT_TRUE(document::holds(failure_with({{"samples", 1.5}}), "samples is no text"));
+  EXPECT_TRUE(document::holds(failure_with(Json::array({"nodes"})), "a rendering's options are an object"));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(RenderingTest, TouchesNothingOutsideOfItsFolder) {

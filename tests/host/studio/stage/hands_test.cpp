@@ -409,6 +409,8 @@ TEST(Hands, ControlPointsFollowTheMouse) {
   scene.drag(scene.pixel(place + glm::dvec3(0.02, 0, 0.2)), R"(["shift"])");
   const Json along = effect_of(scene.project.previews.back())["to"];
   EXPECT_NEAR(along[0].get<double>(), to[0].get<double>() - 0.1 / extent.x, 2e-3) << "along z alone";
+  scene.drag(scene.pixel(place + glm::dvec3(0, 0, 2)));
+  EXPECT_EQ(effect_of(scene.project.previews.back())["to"][2].get<double>(), 1) << "shapes stay in their box";
 }
 
 TEST(Hands, OnePageAtATime) {
