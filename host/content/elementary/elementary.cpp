@@ -38,6 +38,7 @@ struct Reduced {
 // pi/2 in pieces of 33 bits: products with whole numbers below 2^20 are exact.
 constexpr double kQuarterTurn[] = {0x1.921fb544p+0, 0x1.0b4611a6p-34, 0x1.3198a2ep-69, 0x1.b839a252049c1p-104};
 constexpr double kMostQuarters = 0x1p20;
+constexpr double kMostCounted = 0x1p53;  // beyond it, nearest() finds no number of turns, and doubles are 2 apart
 
 Reduced reduce_small(double angle, double further) {
   const double count = nearest(angle * (2 / kPi.high));
@@ -52,7 +53,9 @@ Reduced reduce(double angle) {
   // fmod is exact: what it leaves out of 2 pi in each turn comes off afterwards.
   constexpr double kTurn = 2 * kPi.high;
   constexpr Pair kLeftOut{2 * kPi.low, -0x1.f1976b7ed8fbcp-108};
-  const double within = std::fmod(angle, kTurn), turns = nearest((angle - within) / kTurn);
+  const double within = std::fmod(angle, kTurn);
+  if (std::abs(angle) > kMostCounted) return reduce_small(within, 0);
+  const double turns = nearest((angle - within) / kTurn);
   const Pair rest = Pair{within} - Pair{turns} * kLeftOut;
   return reduce_small(rest.high, rest.low);
 }
@@ -112,6 +115,16 @@ Pair arc_of(Pair x) {
   return kArcs[static_cast<int>(eighths)] + sum_of_sorted(rest.high, rest.low + curve);
 }
 
+// y / x where 0 <= y <= x, of numbers of any size: raised to where the products of Pairs are exact.
+Pair quotient_of(Pair y, Pair x) {
+  if (x.high == 0) return {0};
+  if (x.high == kInfinity) return {y.high == kInfinity ? 1.0 : 0.0};
+  if (x.high < 0x1p900 && y.high > 0x1p-900) return y / x;
+  const int up = -std::ilogb(x.high);
+  const auto raised = [up](Pair a) { return Pair{std::ldexp(a.high, up), std::ldexp(a.low, up)}; };
+  return raised(y) / raised(x);
+}
+
 // The angle of a direction, neither of whose coordinates is NaN.
 double angle_of(Pair y, Pair x) {
   const bool left = std::signbit(x.high), below = std::signbit(y.high);
@@ -119,8 +132,7 @@ double angle_of(Pair y, Pair x) {
   if (below) y = -y;
   const bool steep = y.high > x.high || (y.high == x.high && y.low > x.low);
   if (steep) std::swap(x, y);
-  Pair angle = x.high == 0 ? Pair{0} : x.high == kInfinity ? Pair{y.high == kInfinity ? 1.0 : 0.0} : y / x;
-  angle = arc_of(angle);
+  Pair angle = arc_of(quotient_of(y, x));
   if (steep) angle = kHalfPi - angle;
   if (left) angle = kPi - angle;
   return below ? -angle.high : angle.high;
@@ -141,6 +153,7 @@ double power_of(Pair x, double binary) {
 }
 
 double exp(Pair x) {
+  if (std::isnan(x.high)) return kNan;
   if (x.high > 710) return kInfinity;
   if (x.high < -746) return 0;
   const double count = nearest(x.high * kBinaryLog.high);
@@ -190,7 +203,7 @@ double atan(double x) { return atan2(x, 1); }
 
 double atan2(double y, double x) { return std::isnan(x) || std::isnan(y) ? kNan : angle_of({y}, {x}); }
 
-double exp(double x) { return std::isnan(x) ? kNan : exp(Pair{x}); }
+double exp(double x) { return exp(Pair{x}); }
 
 double exp2(double x) {
   if (!(std::abs(x) < 1100)) return x > 0 ? kInfinity : x < 0 ? 0 : kNan;
@@ -205,7 +218,7 @@ double log10(double x) {
 }
 
 double pow(double base, double exponent) {
-  if (exponent == 0) return 1;
+  if (exponent == 0 || base == 1) return 1;
   if (std::isnan(base) || std::isnan(exponent)) return kNan;
   if (base == 0) return exponent > 0 ? 0 : kInfinity;
   if (base < 0) return !is_whole(exponent) ? kNan : is_odd(exponent) ? -pow(-base, exponent) : pow(-base, exponent);

@@ -3,8 +3,9 @@
 // film is the same file wherever it is compiled. What a film or a model file has of them comes from here.
 //
 // Angles are in radians. All errors are below 1 unit in the last place (tests/host/content/elementary), for sin, cos
-// and tan of angles up to 2^50; pow's is below 2 where the result is beyond 2^+-256. NaN gives NaN; infinities are
-// taken by no function but atan2 and exp.
+// and tan of angles up to 2^50, beyond which they are those of some angle; pow's is below 2 where the result is beyond
+// 2^+-256. NaN gives NaN, but pow gives 1 where C does. Infinities are taken by atan, atan2, exp and exp2 alone; the
+// other functions may give NaN. Zeros have C's signs from asin, atan, atan2 and cbrt alone.
 #pragma once
 
 namespace mars::elementary {

@@ -42,13 +42,16 @@ Numbers of_all_sizes(double from, double to) {
   };
 }
 
+// An error that is NaN counts as infinite, or later ones would replace it.
+double larger(double largest, double error) { return std::isnan(error) ? kInfinity : std::max(largest, error); }
+
 double largest_error(const std::function<double(double)>& function,
                      const std::function<long double(long double)>& reference, const Numbers& numbers) {
   std::mt19937_64 random(1);
   double largest = 0;
   for (int i = 0; i < kTries; ++i) {
-    const double x = numbers(random), error = error_of(function(x), reference(x));
-    if (!(error <= largest)) largest = error;  // NaN stays
+    const double x = numbers(random);
+    largest = larger(largest, error_of(function(x), reference(x)));
   }
   return largest;
 }
@@ -71,6 +74,16 @@ TEST(Elementary, SinesNextToMultiplesOfQuarterTurns) {
   EXPECT_LT(largest_error(cos, cosl, near), 0.8);
 }
 
+TEST(Elementary, SinesOfHugeAnglesAreThoseOfSomeAngle) {
+  std::mt19937_64 random(3);
+  const Numbers angles = of_all_sizes(50, 1024);
+  for (int i = 0; i < kTries; ++i) {
+    const double angle = angles(random), sine = sin(angle), cosine = cos(angle);
+    ASSERT_NEAR(sine * sine + cosine * cosine, 1, 1e-15) << angle;
+    ASSERT_TRUE(std::isfinite(tan(angle))) << angle;
+  }
+}
+
 TEST(Elementary, ArcsOfSines) {
   for (const Numbers& sines : {even(-1, 1), of_all_sizes(-60, 0)}) {
     EXPECT_LT(largest_error(asin, asinl, sines), 0.51);
@@ -85,13 +98,28 @@ TEST(Elementary, ArcsOfSines) {
 TEST(Elementary, ArcsOfTangents) {
   EXPECT_LT(largest_error(atan, atanl, even(-5, 5)), 0.51);
   EXPECT_LT(largest_error(atan, atanl, of_all_sizes(-60, 60)), 0.51);
+  EXPECT_LT(largest_error(atan, atanl, of_all_sizes(60, 1024)), 0.51);
   std::mt19937_64 random(2);
   double largest = 0;
   for (int i = 0; i < kTries; ++i) {
     const double y = of_all_sizes(-10, 10)(random), x = of_all_sizes(-10, 10)(random);
-    largest = std::max(largest, error_of(atan2(y, x), atan2l(y, x)));
+    largest = larger(largest, error_of(atan2(y, x), atan2l(y, x)));
   }
   EXPECT_LT(largest, 0.51);
+}
+
+TEST(Elementary, DirectionsOfAnyLength) {
+  std::mt19937_64 random(4);
+  for (const Numbers& lengths : {of_all_sizes(-1000, 1000), of_all_sizes(-1070, -1020), of_all_sizes(1000, 1003)}) {
+    double largest = 0;
+    for (int i = 0; i < kTries; ++i) {
+      const double x = lengths(random), y = x * of_all_sizes(-20, 20)(random);
+      if (x != 0 || y != 0) largest = larger(largest, error_of(atan2(y, x), atan2l(y, x)));
+    }
+    EXPECT_LT(largest, 0.51);
+  }
+  EXPECT_EQ(atan2(0, 1e305), 0);
+  EXPECT_EQ(atan2(1e305, 0), std::atan2(1.0, 0.0));
 }
 
 TEST(Elementary, DirectionsAlongAxes) {
@@ -119,6 +147,8 @@ TEST(Elementary, Powers) {
   EXPECT_EQ(pow(0, 2), 0);
   EXPECT_EQ(pow(0, -1), kInfinity);
   EXPECT_EQ(pow(7, 0), 1);
+  EXPECT_EQ(pow(1, 1e305), 1);
+  EXPECT_EQ(pow(-1, 1e305), 1);
   EXPECT_EQ(pow(10, 400), kInfinity);
   EXPECT_EQ(pow(10, -400), 0);
   EXPECT_EQ(exp(-kInfinity), 0);
@@ -163,6 +193,8 @@ TEST(Elementary, NanGivesNan) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double result : {sin(nan), cos(nan), tan(nan), asin(nan), acos(nan), atan(nan), atan2(nan, 1),
                               atan2(1, nan), exp(nan), exp2(nan), pow(nan, 2), log10(nan), cbrt(nan), hypot(nan, 1)})
+    EXPECT_TRUE(std::isnan(result));
+  for (const double result : {sin(kInfinity), cos(kInfinity), tan(kInfinity), pow(kInfinity, 2), cbrt(kInfinity)})
     EXPECT_TRUE(std::isnan(result));
 }
 
