@@ -52,7 +52,7 @@ void find_unused_sizes(const Film& film, std::vector<std::string>& lines) {
 }
 
 constexpr double kSeenOff = 1.0 / 400;             // of the picture's height
-constexpr double kDepthError = 1.0 / (1 << 23);    // node/shadow/light_view.h, as what follows from it
+constexpr double kDepthError = 1.0 / (1 << 23);    // of depths, and so of where shadows begin: node/shadow/light_view.h
 constexpr double kNearPart = 1e-3, kFarPart = 10;  // of the distance to what is seen: planes that do no harm
 
 // The place that the camera looks at, in a frame.
@@ -109,14 +109,24 @@ std::string cut_text(const Film& film, const Look& nearest, const Look& farthest
   return "";
 }
 
-std::string detached_text(const Film& film, const Look& worst) {
+// A near plane with which shadows stand off half as far as is seen, and that cuts away nothing that is looked at.
+double near_for(const CameraMotion& camera, const Look& nearest, const Look& worst) {
+  const double enough = 2 * camera.near * worst.part_off() / kSeenOff;
+  return document::rounded_to(std::min(std::max(worst.away * kNearPart, enough), nearest.away / 2), 2);
+}
+
+// Nothing where no plane is better.
+std::string detached_text(const Film& film, const Look& nearest, const Look& worst) {
   const CameraMotion& camera = film.camera;
   if (!casts_shadows(film) || worst.part_off() < kSeenOff) return "";
   const std::string text =
       "camera: shadows begin " + roughly(worst.off) + " away from what casts them " + place_of(worst) + ": ";
-  if (!is_parallel(camera)) return text + plane_text(film, "near", camera.near, worst.away * kNearPart);
-  const double better = worst.away * kFarPart;
-  return better < camera.far ? text + plane_text(film, "far", camera.far, better) : "";
+  if (is_parallel(camera)) {
+    const double far = worst.away * kFarPart;
+    return far < camera.far ? text + plane_text(film, "far", camera.far, far) : "";
+  }
+  const double near = near_for(camera, nearest, worst);
+  return near > camera.near ? text + plane_text(film, "near", camera.near, near) : "";
 }
 
 }  // namespace
@@ -129,8 +139,8 @@ void find_lost_shadows(const Film& film, std::vector<std::string>& lines) {
 void find_unfit_planes(const Film& film, std::vector<std::string>& lines) {
   const std::vector<Look> looks = looks_of(film);
   const auto [nearest, farthest] = std::ranges::minmax_element(looks, {}, &Look::away);
-  for (const std::string& line : {cut_text(film, *nearest, *farthest),
-                                  detached_text(film, *std::ranges::max_element(looks, {}, &Look::part_off))})
+  const auto worst = std::ranges::max_element(looks, {}, &Look::part_off);
+  for (const std::string& line : {cut_text(film, *nearest, *farthest), detached_text(film, *nearest, *worst)})
     if (!line.empty()) lines.push_back(line);
 }
 

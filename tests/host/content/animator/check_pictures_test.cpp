@@ -45,10 +45,8 @@ TEST(Check, TellsOfASizeWithoutShadow) {
   EXPECT_EQ(lines_of_shadows(R"({"place": [0, 0, 9], "size": 0})"), std::vector<std::string>{});
 }
 
-// A camera that looks at what is `away`.
-std::vector<std::string> lines_of_camera(double away, const std::string& camera, bool shadow = true) {
-  const std::string json = R"({"frames": 2, "camera": {"eye": [0, )" + std::to_string(-away) +
-                           R"(, 0], "at": [0, 0, 0])" + camera +
+std::vector<std::string> lines_of_film_by(const std::string& camera, bool shadow) {
+  const std::string json = R"({"frames": 2, "camera": {)" + camera +
                            R"(}, "lights": [{"direction": [0, 0, 1], "shadow": )" + (shadow ? "true" : "false") + R"(}],
       "models": {"m": {"joints": [{"name": "a", "segment": {"shape": "box"}}]}},
       "actors": [{"name": "tom", "model": "m"}]})";
@@ -58,6 +56,11 @@ std::vector<std::string> lines_of_camera(double away, const std::string& camera,
   for (std::string& line : lines) line = "f.json: " + line;
   EXPECT_EQ(lines, warnings);
   return lines;
+}
+
+// A camera that looks at what is `away`.
+std::vector<std::string> lines_of_camera(double away, const std::string& camera, bool shadow = true) {
+  return lines_of_film_by(R"("eye": [0, )" + std::to_string(-away) + R"(, 0], "at": [0, 0, 0])" + camera, shadow);
 }
 
 // By w * w / (2^23 near), docs/light-and-materials.md.
@@ -70,6 +73,23 @@ TEST(Check, TellsOfShadowsThatStandOffInMillimetres) {
   EXPECT_EQ(lines_of_camera(10000, R"(, "near": 10)"), std::vector<std::string>{});
   EXPECT_EQ(lines_of_camera(10000, "", false), std::vector<std::string>{}) << "no light casts";
   EXPECT_EQ(lines_of_camera(10, ""), std::vector<std::string>{}) << "metres";
+}
+
+// A thousandth of the distance is too near for a picture that is so narrow.
+TEST(Check, TellsANearPlaneThatHelpsThroughATelephotoLens) {
+  const std::vector<std::string> lines = lines_of_camera(10000, R"(, "fov": 0.1, "near": 10)");
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(document::holds(lines[0], "its near is 10 (fix it with: mars film f.json camera near=550)")) << lines[0];
+  EXPECT_EQ(lines_of_camera(10000, R"(, "fov": 0.1, "near": 550)"), std::vector<std::string>{});
+}
+
+TEST(Check, TellsANearPlaneThatShowsAllThatTheCameraLooksAt) {
+  const std::string looks =
+      R"("eye": [0, 0, 0], "keys": [{"frame": 0, "at": [0, 1, 0]}, {"frame": 1, "at": [0, 10000, 0]}], "near": )";
+  const std::vector<std::string> lines = lines_of_film_by(looks + "0.1", true);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_TRUE(document::holds(lines[0], "camera near=0.5)")) << lines[0];
+  EXPECT_EQ(lines_of_film_by(looks + "0.5", true), std::vector<std::string>{}) << "no plane is better";
 }
 
 TEST(Check, TellsOfParallelShadowsThatStandOffInKilometres) {
