@@ -148,7 +148,8 @@ bool FilmInMemory::changed_part(animator::FilmPart part, const Change& change) {
     change(json_, film_);
     if (animator::needs_newer_version(json_)) throw Failure("needs a newer version", "", "");
     if (part.kind == animator::FilmPart::Kind::materials)
-      require_new_files_below(folder_, path_, keys::object("film"), Json{{"materials", *was.json}}, json_);
+      require_new_files_below(folder_, path_, keys::object("film"), Json{{"materials", *was.json}},
+                              Json{{"materials", json_.at(animator::pointer_to(part))}});
     animator::read_again(part, json_, film_);
   } catch (const std::exception&) {
     put_back(was);
