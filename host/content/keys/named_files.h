@@ -2,6 +2,7 @@
 // files.
 #pragma once
 
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -12,5 +13,9 @@ namespace mars::keys {
 
 // As they are written, in any object below. What has not the form of a film or model is passed over.
 std::vector<std::string> files_named_in(const nlohmann::ordered_json& json, const Object& object);
+
+// Makes each of the same names what `renamed` returns for the name, as where the JSON comes into another folder.
+void rename_files(nlohmann::ordered_json& json, const Object& object,
+                  const std::function<std::string(const std::string&)>& renamed);
 
 }  // namespace mars::keys

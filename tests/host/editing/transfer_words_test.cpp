@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/film/film_json.h"
+#include "host/content/modeler/figure_library.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/temporary_folder.h"
@@ -44,6 +46,22 @@ TEST_F(OtherFilm, GivesAnActorTheMotionOfAnother) {
   EXPECT_NE(done.report.find("keys became"), std::string::npos) << done.report;
   EXPECT_GT(json_["actors"][0]["keys"].size(), 3u);
   EXPECT_EQ(document::failure_of([&] { edit(json_, {"animate", "check"}); }), "");
+}
+
+// Models that stand in the other film may name files, as seen from its folder.
+TEST_F(OtherFilm, GivesAnActorWhoseModelNamesFiles) {
+  fs::create_directory(folder_ / "cast");
+  std::ofstream(folder_ / "cast/skin.png") << "picture";
+  document::Json model = modeler::library_figure("man");
+  std::ofstream(folder_ / "cast/man.json") << model.dump();
+  document::Json other = animator::new_film();
+  other["models"] = {{"twin", {{"from", "man.json"}, {"proportions", document::Json::object()}}}, {"own", model}};
+  other["models"]["own"]["materials"]["skin"]["images"]["color"] = "skin.png";
+  other["actors"] = {{{"name", "tim"}, {"model", "twin"}}, {{"name", "tom"}, {"model", "own"}}};
+  film::create_film(folder_ / "cast/others.json", other);
+  for (const char* name : {"tim", "tom"}) edit(json_, {"film", "add", name, "--from", "cast/others.json"});
+  EXPECT_EQ(json_["models"]["twin"]["from"], "cast/man.json");
+  EXPECT_EQ(json_["models"]["own"]["materials"]["skin"]["images"]["color"], "cast/skin.png");
 }
 
 TEST_F(OtherFilm, SaysWhoseMotionIsMeant) {

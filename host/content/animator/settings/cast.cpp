@@ -11,6 +11,7 @@
 #include "host/content/animator/settings/retime.h"
 #include "host/content/document/fields.h"
 #include "host/content/document/shell_word.h"
+#include "host/content/keys/named_files.h"
 #include "host/content/modeler/figure_library.h"
 
 namespace mars::animator {
@@ -145,7 +146,10 @@ std::optional<std::uint32_t> add_actor_of(Json& film, const Json& other, const s
   Json actor = actor_to_take(other, name);
   const std::string named = actor.at("model");
   Json model = other.at("models").at(named);
-  if (model.is_string()) model = file_name(model.get<std::string>());
+  if (model.is_string())
+    model = file_name(model.get<std::string>());
+  else
+    keys::rename_files(model, keys::object("model"), file_name);
   Json changed = film;
   actor["name"] = name;
   actor["model"] = put_model(changed, model, named);

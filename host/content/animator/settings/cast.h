@@ -28,8 +28,8 @@ void add_actor(document::Json& film, const NewActor& actor);
 
 // An actor of another film with its model and its keys, under a name of its own: the other film's actor of this name,
 // or its only one. `rates`: this film's rate by the other one's, so that the keys keep their times (retime.h).
-// `file_name`: how this film names a model file that the other one names. Returns the last frame of the keys; none: it
-// has none.
+// `file_name`: how this film names a file that the other one names, as a model or within one. Returns the last frame of
+// the keys; none: it has none.
 std::optional<std::uint32_t> add_actor_of(document::Json& film, const document::Json& other, const std::string& name,
                                           double rates,
                                           const std::function<std::string(const std::string& file)>& file_name);

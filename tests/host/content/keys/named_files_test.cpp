@@ -34,6 +34,15 @@ TEST(NamedFiles, OfModels) {
   EXPECT_TRUE(named_in("model", R"({"joints": []})").empty());
 }
 
+TEST(NamedFiles, AreRenamed) {
+  auto json = nlohmann::ordered_json::parse(
+      R"({"audio": "a.wav", "models": {"man": "man.json", "own": {"joints": [{"name": "audio"}],
+                                       "materials": {"skin": {"images": {"glow": "glow.png"}}}}}})");
+  rename_files(json, object("film"), [](const std::string& file) { return "../" + file; });
+  EXPECT_EQ(named_in("film", json.dump().c_str()), (Files{"../a.wav", "../glow.png", "../man.json"}));
+  EXPECT_EQ(json["models"]["own"]["joints"][0]["name"], "audio");
+}
+
 TEST(NamedFiles, WhatHasAnotherFormIsPassedOver) {
   for (const char* json : {"[]", "3", "null", R"({"audio": 3, "models": ["man.json", 5], "materials": "oak"})",
                            R"({"audio": ["a.wav"], "materials": {"oak": {"images": "oak.png"}, "ash": 1}})"})
