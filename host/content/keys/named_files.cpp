@@ -1,5 +1,6 @@
 #include "host/content/keys/named_files.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string_view>
 
@@ -7,6 +8,18 @@ namespace mars::keys {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+bool is_list(std::string_view type) { return type.front() == '{' || type.front() == '['; }
+
+std::string_view type_of_each(std::string_view list) { return list.substr(1, list.size() - 2); }
+
+// In any object below. A film of captured motion has lists of a million keys that name none.
+bool may_name_files(std::string_view type) {
+  while (is_list(type)) type = type_of_each(type);
+  if (type == "file" || type == "model_or_file") return true;
+  const Object* const object = find_object(type);
+  return object != nullptr && std::ranges::any_of(object->keys, may_name_files, &Key::type);
+}
 
 template <typename AnyJson, typename Take>
 void for_each_file(AnyJson& json, const Object& object, const Take& take);
@@ -18,9 +31,9 @@ void for_each_file_of(AnyJson& json, std::string_view type, const Take& take) {
     if (type == "file") return;
     type = "model";
   }
-  if (type.front() == '{' || type.front() == '[') {
-    if (json.is_structured())
-      for (AnyJson& each : json) for_each_file_of(each, type.substr(1, type.size() - 2), take);
+  if (is_list(type)) {
+    if (json.is_structured() && may_name_files(type))
+      for (AnyJson& each : json) for_each_file_of(each, type_of_each(type), take);
   } else if (const Object* const object = find_object(type)) {
     for_each_file(json, *object, take);
   }
