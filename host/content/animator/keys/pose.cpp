@@ -104,7 +104,7 @@ void refuse_twice(const PartSetting& setting, const std::string& text, std::set<
       throw Failure("sets what an earlier word has set", "'" + text + "'", "give each part and axis once");
 }
 
-// A new key goes on as the way did on which it stands. Where it stands on none, the eases of other parts are theirs.
+// A new key goes on as the way did on which it stands, else linearly, whatever eases other parts have there.
 Ease ease_there(const Track& track, std::uint32_t frame) {
   for (std::size_t i = 0; i + 1 < track.size(); ++i)
     if (track[i].frame <= frame && frame < track[i + 1].frame) return track[i].ease;

@@ -171,12 +171,12 @@ void require_version_2(const std::filesystem::path& path, const Tree& gltf) {
     throw Failure("is glTF of version 1", path.string(), "export it as glTF 2.0");
 }
 
-// Those that MARS takes items out of by their numbers.
+// Refuses a file where something else stands in the place of a list from which MARS takes items by their numbers.
 void require_lists(const std::filesystem::path& path, const Tree& gltf) {
   for (const char* name : {"accessors", "animations", "buffers", "bufferViews", "cameras", "images", "materials",
                            "meshes", "nodes", "samplers", "scenes", "skins", "textures"})
     if (const Tree& list = at(gltf, name); !list.is_null() && !list.is_array())
-      throw Failure(std::string("has ") + name + " that are no list, as glTF has", path.string(), "export it again");
+      throw Failure(std::string("has ") + name + " that are no list", path.string(), "export it again");
 }
 
 }  // namespace

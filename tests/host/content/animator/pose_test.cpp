@@ -273,6 +273,10 @@ TEST_F(CutPoses, BeginAShot) {
   blend(24);
   expect_still_but({24, 31});
   EXPECT_GT(moved(26), 2) << "keys near by change with it";
+  keys(R"([{"frame": 0, "place": [9, 0, 0]}, {"frame": 40, "place": [9, 8, 0]}])");
+  blend(0);
+  expect_still_but({0, 39});
+  EXPECT_NEAR(moved(20), 1.5, 1e-9) << "the film begins as a shot does";
 }
 
 TEST_F(Poses, OfLightsBehindTheEndAreFound) {
