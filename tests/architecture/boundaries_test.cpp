@@ -104,11 +104,13 @@ TEST(Boundaries, GetenvInOneSettingsFile) {
   EXPECT_EQ(files_matching("getenv", std::regex("\\b(secure_)?getenv\\s*\\(")), Files{"hal/messages/settings.cpp"});
 }
 
-// Whether the text calls a function of the C library's, not one of the same name in a namespace or class.
+// Whether the text calls a function of the C library's, also through GLM, not one of the same name in a namespace or
+// class.
 bool calls(const std::string& text, const std::string& function) {
   for (std::size_t at = text.find(function + "("); at != std::string::npos; at = text.find(function + "(", at + 1)) {
     const std::string before = text.substr(text.rfind('\n', at) + 1, at - text.rfind('\n', at) - 1);
-    const bool qualified = before.ends_with("::") && !before.ends_with("std::") && before != "::";
+    const bool libraries = before.ends_with("std::") || before.ends_with("glm::") || before == "::";
+    const bool qualified = before.ends_with("::") && !libraries;
     const bool other = !before.empty() && (std::isalnum(before.back()) ||
                                            std::string_view("_.>").find(before.back()) != std::string_view::npos);
     if (!qualified && !other && before.find("//") == std::string::npos) return true;
