@@ -215,14 +215,17 @@ void remove_left_parts(const std::filesystem::path& path) {
   for (const std::filesystem::path& part : parts) remove_if_left(part);
 }
 
-// Another process that removes what is left may see the new part before it is locked: then it takes another.
+constexpr int kMostParts = 100;  // one after the other: some file systems count no links of files that are there
+
+// Another process that removes what is left may see the new part before it is locked: then this one makes another.
 void write_locked_part(const std::filesystem::path& path, const std::function<void(Part&)>& fill) {
   remove_left_parts(file_meant_by(path));
   std::optional<Part> part;
+  int parts = 0;
   do {
     const std::filesystem::path meant = file_meant_by(path);
     part.emplace(path, meant, part_beside(meant));
-  } while (!part->lock());
+  } while (!part->lock() && ++parts < kMostParts);
   fill(*part);
   part->rename_to_target();
 }
