@@ -274,6 +274,16 @@ class Plans(ProgramTest):
         self.assertEqual(first["inbetweens"]["done"], 0)
         self.assertGreater(first["left"]["inbetweens"], 0)
 
+    def test_a_rendering_has_the_contributors_of_its_forecast(self):
+        """Each message to the host takes a second: fewer nodes than all draw the keyframe."""
+        platform = json.loads((SOURCES / "cluster/platforms/ipsc2.json").read_text())
+        platform["network"]["host_end"] = [[0, 0], [101, 1]]
+        self.succeed("mars", "render", EXAMPLES / "s3.json", "--frames", "0-11", "--size", "160x90", "--nodes", 32, "--groups",
+                     1, "--sink", "none", "--backend", "simulated", "--platform", self.write("slow.json", platform),
+                     "--report", "report.json")
+        frames = json.loads((self.folder / "report.json").read_text())["frames"]
+        self.assertLess(len(frames[0]["nodes"]), 32)
+
 
 if __name__ == "__main__":
     main()

@@ -197,5 +197,17 @@ TEST_P(ShaftsOfLights, LeaveOutNothing) {
 INSTANTIATE_TEST_SUITE_P(Sets, ShaftsOfLights, testing::ValuesIn(simd::sets_here()),
                          [](const auto& set) { return std::string(simd::name_of(set.param)); });
 
+// A caster may block points less deep than the light is wide, however far the caster is before the light.
+TEST(ShaftReach, LeavesOutNothingBeforePointsNearALight) {
+  Random random(83);
+  const LightViews light = light_views(random_light(random, wire::LightKind::point, 0.5), kPicture);
+  const LightView& view = light.middle.front();
+  Hull before{};
+  before.count = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) before.along[axis][0] = view.place[axis] + 50 * view.axis[axis];
+  EXPECT_TRUE(is_near(light, 0, reach_of(light, 1 / 0.9f), before));
+  EXPECT_FALSE(is_near(light, 0, reach_of(light, 1 / 9.0f), before));
+}
+
 }  // namespace
 }  // namespace mars::shadow

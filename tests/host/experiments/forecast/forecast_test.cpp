@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host/experiments/calibration_films.h"
+#include "host/experiments/forecast/frame_costs.h"
 #include "host/programs/node_counter.h"
 #include "tests/host/experiments/forecast/simulated_film.h"
 #include "tests/temporary_folder.h"
@@ -383,6 +384,18 @@ TEST(Forecast, OfFewFramesCountedIsCloseToThatOfAll) {
   EXPECT_LT(few.counted, 10u);
   EXPECT_NEAR(forecast(few, film.tasks(), setting, 4, 1).run.seconds, film.forecast(4, 1).run.seconds,
               0.1 * film.forecast(4, 1).run.seconds);
+}
+
+TEST(FrameCosts, TheBandsOfATeamMakeUpTheFile) {
+  const SimulatedFilm film("robot-arm", "10-11", "fat-tree", Files::nodes);
+  const wire::PackedFilm view = film.view();
+  const Setting setting{view, film.platform()};
+  const FrameCosts costs(setting, 8);
+  FrameTotals whole;
+  whole.lines = whole.changed = view.settings().height;
+  EXPECT_EQ(costs.inbetween(whole, {}, 1).team_bytes, 0);
+  for (const int sharers : {2, 8})
+    EXPECT_NEAR(sharers * costs.inbetween(whole, {}, sharers).team_bytes, costs.file_bytes(), 1e-6 * costs.file_bytes());
 }
 
 }  // namespace

@@ -212,6 +212,7 @@ TEST_F(CommandSteps, ActorsAndLightsComeAndGo) {
   const auto shapes = project->shapes_revision();
   project->preview(step_of(commands));
   EXPECT_EQ(project->film().actors.size(), 3u);
+  EXPECT_EQ(project->describe_poses()["actors"].size(), 3u);
   EXPECT_GT(project->shapes_revision(), shapes);
   project->cancel();
   EXPECT_EQ(project->film().actors.size(), 2u);

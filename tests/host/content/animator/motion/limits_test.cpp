@@ -328,5 +328,16 @@ TEST(Actions, DoNotEndBehindWhatAFilmCanHave) {
             "(begin earlier, or make it shorter: a film has at most 1000000 frames)");
 }
 
+// A key that holds does not hold the nod that begins at that key.
+TEST(Nod, GoesOnEvenlyFromAKeyThatIsThere) {
+  document::Json film = film_with(human());
+  film["actors"][0]["keys"] = document::Json::parse(R"([{"frame": 0, "pose": {"head": [0, 0, 0]}, "ease": "hold"}])");
+  act(film, "nod", 0);
+  const Shown shown(film);
+  const auto& keys = shown.film.actors[0].motion.pose[shown.body.find(modeler::Trunk::head)];
+  ASSERT_GT(keys.size(), 2u);
+  for (const auto& key : keys) EXPECT_EQ(key.ease, animator::kLinear) << key.frame;
+}
+
 }  // namespace
 }  // namespace mars::motion
