@@ -153,10 +153,12 @@ class Page(unittest.TestCase):
         self.until("document.querySelector('[data-row=\"walker left-shin\"]') !== null")
         left, width = self.browser.js("const at = document.querySelector('.ruler').getBoundingClientRect(); return [at.x, at.width]")
         x = lambda frame: left + 18 + frame * (width - 36) / (self.studio.project["frames"] - 1)  # noqa: E731
-        y = self.center('[data-row="walker left-shin"]')[1]
+        y = self.at('[data-row="walker left-shin"]')[1]
         self.browser.drag((x(20), y), (x(24), y))
+        self.let_go()
         self.assertEqual(self.step(), {"commands": [["animate", "move", "walker", "left-shin", "--frame", "20", "--to", "24"]]})
-        self.browser.click((x(60), self.center(".ruler")[1]))
+        self.browser.click((x(60), self.at(".ruler")[1]))
+        self.let_go()
         self.studio.wait_for("frame", frame=60)
         self.click('[data-row="walker left-shin"] .name')
         self.press("k")
