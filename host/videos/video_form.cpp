@@ -39,7 +39,8 @@ void add_video_colors(Words& words, const char* pixels) {
 // Encoders write other bytes with another number of threads, and would start as many as there are processors. With one
 // number a piece of a video is the same on every machine.
 constexpr const char* kThreads = "8";
-constexpr const char* kFrameThreads = "3";  // of x265, whose other threads change nothing
+// x265 writes other bytes from run to run on a busy machine if its threads share more than one frame.
+constexpr const char* kFrameThreads = "1";
 
 void add_speed(Words& words, std::string_view encoder) {
   add(words, {"-threads", kThreads});
