@@ -122,7 +122,7 @@ class Commands(SideBySide, FakeSlurm):
         self.refused(1, "status", "out", says="no folder of frames")
         self.write("film.json", spinning_teapot(LONG, [160, 90]))
         process = self.start_mars("render", "film.json", "-o", "out", "--backend", "threads", "--nodes", 2)
-        wait_until(lambda: " 2 nodes, " in self.slurm("status", "out"), SECONDS, "no status")
+        wait_until(lambda: " left\n" in self.slurm("status", "out"), SECONDS, "no status of frames")
         self.assertRegex(self.slurm("status", "out"), rf"out: \d+ of {LONG} frames of film.json\n"
                          rf"run on .* \(process \d+\): frame \d+ of {LONG}, .* left\n  .*  2 nodes, \d+ frames\n$")
         self.refused(1, "cancel", "out", says="no job was submitted for this folder")
