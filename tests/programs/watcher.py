@@ -44,6 +44,10 @@ class Watcher:
         except Exception as failure:  # shown by end()
             self.failure = failure
 
+    def has_waited_in_vain(self):
+        """Whether no host has come: all frames were there."""
+        return not self.begun and self.thread.is_alive()
+
     def end(self):
         self.thread.join()
         if self.failure:

@@ -8,7 +8,8 @@ which is compared with the whole. What a watcher of 8-bit frames has at last is 
 
 Then commands edit each film at random (random_edits.py), and it is rendered in as many ways again. One
 more way renders the edited film into the folder of the film before its edits, where mars render draws
-only the frames that have changed.
+only the frames that have changed. With --kills, renderings of the film and of its video are killed at random and finished
+(killed.py).
 
 For each film, the command prints its seed, its pixels' hash and what it is; for an edited film the
 edits; for a way that gives other files, or that fails, the command that shows it. The exit code is 1 if there is
@@ -29,6 +30,7 @@ import tempfile
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent.parent / "programs"))
 from exr_reader import Exr  # noqa: E402
+from killed import Killed  # noqa: E402
 from png_reader import png_rows  # noqa: E402
 from random_edits import random_edit  # noqa: E402
 from random_film import RandomFilm  # noqa: E402
@@ -49,6 +51,7 @@ def arguments(words=None):
     parser.add_argument("--films", type=int, default=20, metavar="N", help="how many films; default: %(default)s")
     parser.add_argument("--ways", type=int, default=10, metavar="N", help="ways to render each; default: %(default)s")
     parser.add_argument("--edits", type=int, default=3, metavar="N", help="edits of each film; default: %(default)s")
+    parser.add_argument("--kills", action="store_true", help="kill renderings of each film and finish them")
     parser.add_argument("--seed", type=int, default=1, metavar="N", help="of the first film; default: %(default)s")
     parser.add_argument("--keep", type=pathlib.Path, metavar="DIR", help="write the films there, to look at them")
     return parser.parse_args(words)
@@ -269,6 +272,20 @@ def keep(path, name, folder):
         shutil.copy(path, folder / name)
 
 
+def kill(films, path, seed, mpi, pixels):
+    """What differs after renderings that were killed; prints how many were."""
+    killed = Killed(films, path, random.Random(f"kills of {seed}"), ["threads", "threads", *(["mpi"] if mpi else [])])
+    wrong = []
+    for what, differ in (("frames", lambda: killed.frames_differ(pixels)), ("its video", killed.videos_differ)):
+        try:
+            if differ():
+                wrong.append(f"{what} of {path.name} ({killed.how}) differ after kills")
+        except RuntimeError as failure:
+            wrong.append(f"{what} of {path.name} ({killed.how}), killed and finished: {failure}")
+    print(f"  killed  {killed.kills} times, of renderings of frames and of a video")
+    return wrong
+
+
 def examine(films, seed, options, mpi):
     """Renders a film, and the same film with edits; prints both. How many ways gave other pixels."""
     choose = random.Random(f"ways of {seed}")
@@ -280,7 +297,7 @@ def examine(films, seed, options, mpi):
 
     path = films.write(seed)
     keep(path, path.name, options.keep)
-    wrong = examined(str(seed))[1]
+    pixels, wrong = examined(str(seed))
     if options.edits:
         commands, continued = films.edited(path, random.Random(f"edits of {seed}"), options.edits)
         keep(path, f"{path.stem}-edited.json", options.keep)
@@ -288,6 +305,8 @@ def examine(films, seed, options, mpi):
         for command in commands:
             print(" " * 10 + shown(["mars", *command], {}), flush=True)
         wrong += others + ([f"{continued} in the folder of the film before its edits"] if continued != pixels else [])
+    if options.kills:
+        wrong += kill(films, path, seed, mpi, pixels)
     for text in wrong:
         print(f"WRONG: {text}", flush=True)
     return len(wrong)

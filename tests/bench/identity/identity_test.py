@@ -128,6 +128,15 @@ class Identity(unittest.TestCase):
             self.assertEqual(len(pixels), 32)
             self.assertEqual([" --samples 16 --size 40x20" in command for command in wrong], [True])
 
+    def test_killed_renderings_are_finished_and_other_pixels_are_told(self):
+        path = self.films.write(6)
+        pixels = self.films.content(path, identity.PLAIN, {})[0]
+        killed = identity.Killed(self.films, path, random.Random(2), ["threads"])
+        self.assertFalse(killed.frames_differ(pixels))
+        self.assertTrue(killed.frames_differ("other"))
+        self.assertFalse(killed.videos_differ())
+        self.assertGreater(killed.kills, 0)
+
 
 if __name__ == "__main__":
     cases.main()
