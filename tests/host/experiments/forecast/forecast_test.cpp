@@ -395,7 +395,8 @@ TEST(FrameCosts, TheBandsOfATeamMakeUpTheFile) {
   whole.lines = whole.changed = view.settings().height;
   EXPECT_EQ(costs.inbetween(whole, {}, 1).team_bytes, 0);
   for (const int sharers : {2, 8})
-    EXPECT_NEAR(sharers * costs.inbetween(whole, {}, sharers).team_bytes, costs.file_bytes(), 1e-6 * costs.file_bytes());
+    EXPECT_NEAR(sharers * costs.inbetween(whole, {}, sharers).team_bytes, costs.file_bytes(),
+                1e-6 * costs.file_bytes());
 }
 
 }  // namespace
