@@ -182,6 +182,9 @@ class Films:
         self.run(self.words(path, way, frames), environment)
         if watcher:
             self.check_watcher(watcher, path, frames)
+        return self.pixels(frames)
+
+    def pixels(self, frames):
         return re.search(r"^pixels \(.*\) (\w+)$", self.run(["verify", str(self.folder / frames)]), re.MULTILINE)[1]
 
     def check_watcher(self, watcher, path, frames):

@@ -1,7 +1,5 @@
 """Renderings that are killed at random moments and then finished: folders and videos are those of a rendering that nothing
 disturbed, and nothing else is left."""
-import pathlib
-import re
 import shutil
 import signal
 import subprocess
@@ -49,20 +47,19 @@ class Killed:
     def frames_differ(self, pixels):
         """`pixels`: the hash of an undisturbed folder's."""
         place = str(self.films.folder / "watcher")
-        folder = self.empty_folder("killed")
+        self.empty_folder("killed")
         words = self.films.words(self.path, self.how | {"--watch": place}, "killed")
         watcher = self.render(words, lambda: Watcher(place))
         if not watcher.has_waited_in_vain():
             self.films.check_watcher(watcher, self.path, "killed")
-        found = re.search(r"^pixels \(.*\) (\w+)$", self.films.run(["verify", str(folder)]), re.MULTILINE)[1]
-        return found != pixels
+        return self.films.pixels("killed") != pixels
 
     def videos_differ(self):
         words = ["--quiet", *(word for option in self.how.items() for word in option)]
         alone, killed = (self.empty_folder(name) / "film.mp4" for name in ("alone", "killed"))
         self.films.run(["render", str(self.path), "-o", str(alone), *words])
         self.render(["render", str(self.path), "-o", str(killed), *words])
-        left = [file.name for file in pathlib.Path(killed.parent).iterdir()]
+        left = [file.name for file in killed.parent.iterdir()]
         if left != [killed.name]:
             raise RuntimeError(f"{killed.parent} has {' '.join(sorted(left))}")
         return alone.read_bytes() != killed.read_bytes()

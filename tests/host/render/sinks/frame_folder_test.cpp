@@ -50,28 +50,6 @@ void run_and_kill(const fs::path& path, const Manifest& manifest, const std::vec
   ASSERT_TRUE(WIFSIGNALED(status));
 }
 
-// Runs `act` as a person who is not root; whatever fails there fails the test.
-void as_nobody(const fs::path& folder, const std::function<bool()>& act) {
-  constexpr uid_t kNobody = 65534;
-  if (geteuid() == 0) {
-    ASSERT_EQ(chown(folder.c_str(), kNobody, kNobody), 0);
-    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
-      ASSERT_EQ(chown(entry.path().c_str(), kNobody, kNobody), 0);
-  }
-  const pid_t child = fork();
-  if (child == 0) {
-    const bool may = geteuid() != 0 || (setgid(kNobody) == 0 && setuid(kNobody) == 0);
-    _exit(may && act() ? 0 : 1);
-  }
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0);
-}
-
-std::string failure_to_claim(const fs::path& path, const Manifest& manifest) {
-  return document::failure_of([&] { FrameFolder(path, manifest); });
-}
-
 TEST(FrameFolder, NamesSortAsFramesDo) {
   const auto name = [](std::uint32_t frame, std::uint32_t film_frames, PictureFormat format = PictureFormat::png) {
     Manifest manifest = in_format(format);
@@ -528,76 +506,6 @@ TEST(FrameFolder, WrongManifestsAreToldAndNotReplaced) {
       failure_with(head + R"("checksum":")" + std::string(100000, 'x') + R"(","frames":[[0,1]]})");
   EXPECT_TRUE(document::holds(of_long, "xxx... is not 32 hexadecimal digits")) << of_long.substr(0, 1000);
   EXPECT_LT(of_long.size(), 400u);
-}
-
-// Whoever reads waits for none, and reads no device to its end, which never comes.
-TEST(FrameFolder, WhatIsNoFileIsNamedAtOnceAndChangesNothing) {
-  const test::TemporaryFolder folder;
-  fill(folder.path(), small_manifest(), 7);
-  const fs::path manifest = folder / "frames.json";
-  fs::rename(manifest, folder / "kept");
-  const auto refused = [&](const char* reason) {
-    const std::string failure = failure_to_claim(folder.path(), of_frames({3}));
-    EXPECT_TRUE(document::holds(failure, manifest.string() + ": " + reason)) << failure;
-    EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), failure);
-    EXPECT_TRUE(fs::exists(fs::symlink_status(manifest)));
-    fs::remove(manifest);
-  };
-  ASSERT_EQ(mkfifo(manifest.c_str(), 0600), 0);
-  refused("is not a regular file");
-  fs::create_symlink("/dev/zero", manifest);
-  refused("is not a regular file");
-  fs::create_directory(manifest);
-  refused("is not a regular file (remove it; mars verify --repair ");
-  fs::create_symlink("frames.json", manifest);
-  refused("is not a regular file");
-  document::write_whole_file(manifest, "");
-  fs::resize_file(manifest, std::uintmax_t{1} << 40);
-  refused("has 1099511627776 bytes, too many");
-  EXPECT_EQ(folder.entries(), 6u);
-}
-
-TEST(FrameFolder, WhatIsNoFileAmongTheRunsIsNamedAtOnce) {
-  for (const char* ending : {"claim", "turn", "hashes", "waits"}) {
-    const test::TemporaryFolder folder;
-    fill(folder.path(), small_manifest(), 7);
-    fs::create_directory(folder / ".runs");
-    const fs::path file = folder / (std::string(".runs/vm-1-abc.") + ending);
-    ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
-    const std::string says =
-        file.string() + ": is not a regular file, but runs write only regular files there (remove it)";
-    EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
-    EXPECT_EQ(document::failure_of([&] { read_manifest(folder.path()); }), says);
-    clear_ended_runs(folder.path());
-    EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".runs"), {}), 1) << "what was begun is gone again";
-    fs::remove(file);
-    fs::create_symlink("/dev/zero", file);
-    EXPECT_EQ(failure_to_claim(folder.path(), of_frames({3})), says);
-  }
-}
-
-TEST(FrameFolder, AManifestThatCannotBeReadIsNotReplaced) {
-  const test::TemporaryFolder folder;
-  fill(folder.path(), small_manifest(), 7);
-  fs::permissions(folder / "frames.json", fs::perms::none);
-  as_nobody(folder.path(), [&] {
-    return document::holds(failure_to_claim(folder.path(), of_frames({3})),
-                           "frames.json: cannot be read: Permission denied (check its permissions)");
-  });
-  EXPECT_EQ(read_manifest(folder.path()).frames, small_manifest().frames);
-  EXPECT_EQ(folder.entries(), 6u);
-}
-
-TEST(FrameFolder, RivalsThatCannotBeListedAreAnError) {
-  const test::TemporaryFolder folder;
-  fill(folder.path(), small_manifest(), 7);
-  fs::create_directory(folder / ".runs");
-  fs::permissions(folder / ".runs", fs::perms::owner_write | fs::perms::owner_exec);
-  as_nobody(folder.path(), [&] {
-    const char* says = ".runs: cannot be listed, so other runs in this folder are unknown";
-    return document::holds(failure_to_claim(folder.path(), of_frames({3})), says) &&
-           document::holds(document::failure_of([&] { read_manifest(folder.path()); }), says);
-  });
 }
 
 TEST(FrameFolder, AnotherFilmsFolderUnderAFramesNameIsToldWithARemedy) {
