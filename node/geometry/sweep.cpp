@@ -168,28 +168,36 @@ class View {
 // The shadows of moving parts on what stands still.
 class Shadows {
  public:
-  // `skin`: room for a segment's bones.
-  Shadows(const Scene& scene, std::uint32_t frame, const ShapeBoxes& boxes, std::size_t casters, SkinBounds& skin)
-      : camera_(scene.film().camera_at(frame)), view_(camera_, scene) {
+  // `skin`: room for a segment's bones; `scratch`: for the rest.
+  Shadows(const Scene& scene, std::uint32_t frame, const ShapeBoxes& boxes, std::size_t casters, SkinBounds& skin,
+          ShadowScratch& scratch)
+      : camera_(scene.film().camera_at(frame)),
+        view_(camera_, scene),
+        lights_(scratch.lights),
+        receivers_(scratch.receivers) {
     const wire::PackedFilm& film = scene.film();
+    lights_.clear();
+    receivers_.clear();
     for (const wire::Track& track : film.light_tracks())
       if (film.casts(track)) lights_.push_back(film.lights()[film.value_at(track, frame)]);
     Box all;
     for (std::size_t s = 0; s < film.segments().size(); ++s) {
       if (!scene.stands(s)) continue;
       const Hull corners = whole_of(scene, film.segments()[s], frame, boxes, skin);
-      receivers_.emplace_back().add(corners);
+      Box box;
+      box.add(corners);
+      receivers_.push_back({box.low, box.high});
       all.add(corners);
     }
-    if (receivers_.size() * casters * lights_.size() > kMostShadows) receivers_ = {all};
+    if (receivers_.size() * casters * lights_.size() > kMostShadows) receivers_.assign(1, {all.low, all.high});
   }
 
   // Visits what shadows of a caster within the box, of the world, may be on.
   template <typename Visit>
   void visit(const Box& caster, const Visit& visit) const {
-    for (const Box& receiver : receivers_)
+    for (const auto& [low, high] : receivers_)
       for (const wire::Light& light : lights_)
-        if (const Box shadow = shadow_of(caster, receiver, light); !shadow.is_empty())
+        if (const Box shadow = shadow_of(caster, {low, high}, light); !shadow.is_empty())
           visit(view_.bound(moved(camera_.world_to_eye, corners_of(shadow.low, shadow.high))));
   }
 
@@ -241,8 +249,8 @@ class Shadows {
 
   const wire::Camera& camera_;
   const View view_;
-  std::vector<wire::Light> lights_;
-  std::vector<Box> receivers_;  // in the world
+  std::vector<wire::Light>& lights_;
+  std::vector<std::array<Point, 2>>& receivers_;
 };
 
 // Hulls in the world round the moving pieces of segments: round each patch and meshlet, or round a whole shape.
@@ -377,7 +385,7 @@ void Sweep::begin(const Scene& scene, std::span<const std::uint32_t> frames, con
   Pieces hulls(scene, boxes, any_still && pieces * frames.size() <= kMostHulls, scratch_);
   std::optional<Shadows> shadows;
   if (any_still && scene.casting_count() > 0)
-    shadows.emplace(scene, frames.front(), boxes, movers.size(), scratch_.bones);
+    shadows.emplace(scene, frames.front(), boxes, movers.size(), scratch_.bones, shadow_scratch_);
   for (const std::uint32_t number : movers) {
     const wire::Segment& segment = film.segments()[number];
     Way way(casters_, movers.size() * frames.size() / kMostHulls + 1);

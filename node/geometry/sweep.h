@@ -2,6 +2,7 @@
 // anything is drawn. Bounds, never too small.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -28,6 +29,12 @@ struct SkinScratch {
   NetPoints<double, 6> net;  // boxes, low then high
 };
 
+// Room for what shadows that are swept take, in the world.
+struct ShadowScratch {
+  std::vector<wire::Light> lights;
+  std::vector<std::array<std::array<double, 3>, 2>> receivers;  // boxes, low then high
+};
+
 class Sweep {
  public:
   using Cover = std::function<void(const PictureBounds&)>;
@@ -47,6 +54,7 @@ class Sweep {
 
   std::vector<SweptHull> casters_;
   SkinScratch scratch_;
+  ShadowScratch shadow_scratch_;
   LineRange lines_{0, 0};
 };
 

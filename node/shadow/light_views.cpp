@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <utility>
 
 namespace mars::shadow {
 namespace {
@@ -154,14 +156,10 @@ void see_from_afar(const geometry::EyeLight& light, const shape::Projection& pro
 }
 
 void see_from_place(const geometry::EyeLight& light, const shape::Projection& projection, LightViews& out) {
+  constexpr std::array<Vector, 6> kAxes{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
   const bool one = light.kind == wire::LightKind::spot && light.cos_outer >= kWidestFace;
-  std::vector<Vector> axes;
-  if (one) {
-    axes.push_back(unit(vector_of(light.axis)));
-  } else {
-    for (std::size_t k = 0; k < 3; ++k)
-      for (const double way : {1.0, -1.0}) axes.emplace_back()[k] = way;
-  }
+  const Vector way_of_spot = unit(vector_of(light.axis));
+  const std::span<const Vector> axes = one ? std::span(&way_of_spot, 1) : std::span<const Vector>(kAxes);
   const double nearest = projection.near / 64.0;
   const Vector middle = vector_of(light.vector);
   out.faces = static_cast<std::uint32_t>(axes.size());
@@ -198,8 +196,10 @@ PointFrame point_frame(const shape::Projection& p) {
 
 }  // namespace
 
-LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection) {
-  LightViews out{};
+LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection, LightViews room) {
+  LightViews out = std::move(room);
+  out.views.clear();
+  out.middle.clear();
   out.size = light.size;
   out.points = light.size > 0 ? kLightPoints : 1;
   out.frame = point_frame(projection);

@@ -24,7 +24,7 @@ struct LightViews {
   PointFrame frame;
 };
 
-// `light` casts.
-LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection);
+// `light` casts. `room`: views that are seen no more, the memory of which is used again.
+LightViews light_views(const geometry::EyeLight& light, const shape::Projection& projection, LightViews room = {});
 
 }  // namespace mars::shadow

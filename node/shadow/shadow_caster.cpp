@@ -4,8 +4,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <ranges>
+#include <utility>
 
 #include "node/shadow/block_plainly.h"
 #include "node/simd/vector_slack.h"
@@ -36,21 +38,22 @@ ShadowCaster::ShadowCaster(simd::InstructionSet set, const geometry::Scene& scen
 
 void ShadowCaster::begin(const geometry::Scene& scene, const std::function<void()>& look) {
   look_ = look;
-  lights_.clear();
-  for (const geometry::EyeLight& light : scene.casting_lights())
-    lights_.push_back(light_views(light, scene.projection()));
+  const auto casting = scene.casting_lights();
+  lights_.resize(casting.size());
+  for (std::size_t k = 0; k < casting.size(); ++k)
+    lights_[k] = light_views(casting[k], scene.projection(), std::move(lights_[k]));
 }
 
 void ShadowCaster::cast(const geometry::Scene& scene, Layers drawn, Layer& kept) {
-  std::vector<Layer*> all(drawn.begin(), drawn.end());
-  all.push_back(&kept);
+  all_layers_.assign(drawn.begin(), drawn.end());
+  all_layers_.push_back(&kept);
   for (std::uint32_t light = 0; light < lights(); ++light) {
     if (!has_size(light)) {
       cast_from_point(scene, light, drawn, kept);
       continue;
     }
     cast_from_all(scene, Casting::still, light, drawn);
-    if (scene.any_moves()) cast_from_all(scene, Casting::moving, light, all);
+    if (scene.any_moves()) cast_from_all(scene, Casting::moving, light, all_layers_);
   }
 }
 
@@ -96,7 +99,7 @@ void ShadowCaster::stream(const geometry::Scene& scene, Casting casting, std::sp
     return false;
   };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters))
+  for (auto chunk = next_casters(std::cref(matters)); !chunk.empty(); chunk = next_casters(std::cref(matters)))
     for (Faces* faces : onto) block(chunk, views, *faces);
 }
 
@@ -107,7 +110,7 @@ void ShadowCaster::cast_from_all(const geometry::Scene& scene, Casting casting, 
   shafts_.begin(all, samples_of(light), pairs_a_sample(light), onto);
   const auto matters = [&](const Hull& hull) { return shafts_.meet(hull, grid_); };
   casters_.begin(scene, casting, diced_);
-  for (auto chunk = next_casters(matters); !chunk.empty(); chunk = next_casters(matters)) {
+  for (auto chunk = next_casters(std::cref(matters)); !chunk.empty(); chunk = next_casters(std::cref(matters))) {
     const Touched& some = shafts_.find(chunk, grid_);
     if (some.casters.empty()) continue;
     for (std::uint32_t point = 0; point < all.points; ++point) {
@@ -131,7 +134,7 @@ void ShadowCaster::put_points(const PointSource& source, std::span<const LightVi
 }
 
 void ShadowCaster::begin_points(std::span<const LightView> views, Faces& faces) {
-  faces.resize(views.size());
+  if (faces.size() < views.size()) faces.resize(views.size());
   forget_points(faces);
 }
 
@@ -195,9 +198,13 @@ void ShadowCaster::block(const ChunkCaster& caster, const LightView& view, Point
 
 void ShadowCaster::bound(std::uint32_t light, const Layer& layer, std::span<const std::uint32_t> tiles,
                          std::vector<TileBounds>& faces) const {
-  for (const LightView& view : lights_[light].middle) {
-    TileBounds& face = faces.emplace_back();
+  const std::vector<LightView>& views = lights_[light].middle;
+  if (faces.size() < views.size()) faces.resize(views.size());
+  for (std::size_t f = 0; f < views.size(); ++f) {
+    const LightView& view = views[f];
+    TileBounds& face = faces[f];
     face.tree.clear();
+    face.tiles.clear();
     float high_z = 0;
     for (const std::uint32_t tile : tiles) {
       const GridBox box = bound_tile(light, view, layer, tile);
@@ -224,17 +231,15 @@ GridBox ShadowCaster::bound_tile(std::uint32_t light, const LightView& view, con
 }
 
 void ShadowCaster::forget_still() {
-  still_bounds_.clear();
+  knows_still_ = false;
   diced_.clear(Casting::still);
 }
 
 void ShadowCaster::bound_still(const Layer& still) {
   still_lines_ = still.range;
   still_bounds_.resize(lights());
-  for (std::uint32_t light = 0; light < lights(); ++light) {
-    still_bounds_[light].clear();
-    bound(light, still, still.tiles, still_bounds_[light]);
-  }
+  for (std::uint32_t light = 0; light < lights(); ++light) bound(light, still, still.tiles, still_bounds_[light]);
+  knows_still_ = true;
 }
 
 // Calls visit(tile) for squares whose points a caster within the hull may block; all where that is not known. Trees
@@ -243,7 +248,7 @@ template <typename Visit>
 void ShadowCaster::visit_shaded(std::uint32_t light, const Hull& hull, std::vector<TileBounds>& faces,
                                 const Visit& visit) {
   const LightViews& all = lights_[light];
-  for (std::size_t f = 0; f < faces.size(); ++f) {
+  for (std::size_t f = 0; f < std::min(faces.size(), all.middle.size()); ++f) {
     if (is_near(all, f, faces[f].reach, hull)) {
       std::ranges::for_each(faces[f].tiles, visit);
       continue;
@@ -256,14 +261,13 @@ void ShadowCaster::visit_shaded(std::uint32_t light, const Hull& hull, std::vect
 
 void ShadowCaster::mark_shaded(const geometry::Sweep& sweep, const Layer& still, raster::StillMarks& marks) {
   if (sweep.casters().empty()) return;
-  std::vector<std::uint32_t> tiles = still.tiles;
+  marked_tiles_ = still.tiles;
   for (std::uint32_t light = 0; light < lights(); ++light) {
-    std::erase_if(tiles, [&](std::uint32_t tile) {
+    std::erase_if(marked_tiles_, [&](std::uint32_t tile) {
       const std::uint32_t top = tile / still.tiles_across() * kTile;
       return top >= sweep.lines().last || top + kTile <= sweep.lines().first || marks.has(tile);
     });
-    bounds_.clear();
-    bound(light, still, tiles, bounds_);
+    bound(light, still, marked_tiles_, bounds_);
     for (const geometry::SweptHull& caster : sweep.casters())
       visit_shaded(light, hull_of(caster), bounds_, [&](std::uint32_t tile) { marks.mark_tile(tile); });
     look_();

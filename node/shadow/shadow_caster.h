@@ -56,7 +56,7 @@ class ShadowCaster {
   void bound_still(const Layer& still);
   void forget_still();
   bool knows_still(const geometry::LineRange& lines) const {
-    return !still_bounds_.empty() && still_lines_.first == lines.first && still_lines_.last == lines.last;
+    return knows_still_ && still_lines_.first == lines.first && still_lines_.last == lines.last;
   }
   // Leaves of `tiles`, squares of the still layer, those whose points the scene's moving casters may block; all where
   // that is not known.
@@ -109,9 +109,13 @@ class ShadowCaster {
   Faces drawn_points_, kept_points_;
   GridCaster grid_;
   Shafts shafts_;
-  std::vector<TileBounds> bounds_;                     // of a light, by face
-  std::vector<std::vector<TileBounds>> still_bounds_;  // by light and face
-  geometry::LineRange still_lines_{0, 0};              // that still_bounds_ are of
+  // By face, or by light and face: a light may have fewer faces now than there is room for.
+  std::vector<TileBounds> bounds_;  // of a light
+  std::vector<std::vector<TileBounds>> still_bounds_;
+  bool knows_still_ = false;               // still_bounds_ are of the interval
+  geometry::LineRange still_lines_{0, 0};  // that still_bounds_ are of
+  std::vector<Layer*> all_layers_;
+  std::vector<std::uint32_t> marked_tiles_;
   std::vector<std::uint32_t> found_;
   std::vector<std::uint8_t> is_shaded_;  // by square of the picture
   std::function<void()> look_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -62,9 +63,9 @@ void Shafts::begin(const LightViews& light, const PointSource& source, std::uint
   light_ = &light;
   layers_ = layers;
   samples_ = static_cast<std::uint32_t>(source.pattern.count);
-  points_.resize(light.middle.size());
+  if (points_.size() < faces()) points_.resize(faces()), touched_.resize(faces());
   for (Points& points : points_) points.clear();
-  std::vector<float> high_z(points_.size(), 0.0f);
+  high_z_.assign(faces(), 0.0f);
   const std::uint32_t some = (1u << pairs_a_sample) - 1;
   const auto counts = [&](const wire::StillPairs& pairs, const Lane& lane, std::uint16_t moved) {
     const std::uint32_t open = pairs.lit & ~static_cast<std::uint32_t>(pairs.blocked | moved);
@@ -74,16 +75,16 @@ void Shafts::begin(const LightViews& light, const PointSource& source, std::uint
     for (const std::uint32_t tile : layer->tiles)
       for_each_vector(source, *layer, tile, counts, light.middle,
                       [&](const PointVector& vector, std::uint32_t number, std::size_t face) {
-                        high_z[face] = std::max(high_z[face], vector.box.high_z);
+                        high_z_[face] = std::max(high_z_[face], vector.box.high_z);
                         points_[face].add(*layer, tile, number, vector);
                       });
   for (Points& points : points_) points.finish();
   reach_.clear();
-  for (const float high : high_z) reach_.push_back(reach_of(light, high));
+  for (const float high : high_z_) reach_.push_back(reach_of(light, high));
 }
 
 bool Shafts::meet(const Hull& hull, GridCaster& grid) {
-  for (std::size_t face = 0; face < points_.size(); ++face) {
+  for (std::size_t face = 0; face < faces(); ++face) {
     if (points_[face].empty()) continue;
     if (is_near(*light_, face, reach_[face], hull)) return true;
     if (points_[face].tree().any(kernels_, grid.put(light_->middle[face], hull), reach_[face].shaft.spread))
@@ -94,16 +95,16 @@ bool Shafts::meet(const Hull& hull, GridCaster& grid) {
 
 const Touched& Shafts::find(std::span<const ChunkCaster> casters, GridCaster& grid) {
   found_.casters.clear();
-  found_.parts.assign(layers_.size(), {});
-  touched_.resize(points_.size());
-  for (std::size_t face = 0; face < points_.size(); ++face) touched_[face].assign(points_[face].vector_count(), 0);
+  if (found_.parts.size() < layers_.size()) found_.parts.resize(layers_.size());
+  for (auto& parts : found_.parts) parts.clear();
+  for (std::size_t face = 0; face < faces(); ++face) touched_[face].assign(points_[face].vector_count(), 0);
   std::size_t batches = 0;
   for (const ChunkCaster& caster : casters) batches += caster.surface->triangles.batch_count;
   surfaces_.clear(), kept_.clear();
   surfaces_.reserve(casters.size()), kept_.reserve(batches);
   for (const ChunkCaster& caster : casters) {
     batches_.assign((caster.surface->triangles.batch_count + kMostBatches - 1) / kMostBatches, 0);
-    for (std::size_t face = 0; face < points_.size(); ++face)
+    for (std::size_t face = 0; face < faces(); ++face)
       if (!points_[face].empty()) touch(caster, face, grid);
     keep_batches(caster);
   }
@@ -112,7 +113,7 @@ const Touched& Shafts::find(std::span<const ChunkCaster> casters, GridCaster& gr
 }
 
 void Shafts::keep_parts() {
-  for (std::size_t face = 0; face < points_.size(); ++face)
+  for (std::size_t face = 0; face < faces(); ++face)
     points_[face].visit_squares(touched_[face], samples_, [this](const Layer* layer, const TilePart& part) {
       const auto at = static_cast<std::size_t>(std::ranges::find(layers_, layer) - layers_.begin());
       std::vector<TilePart>& parts = found_.parts[at];
@@ -121,7 +122,7 @@ void Shafts::keep_parts() {
       else
         parts.push_back(part);
     });
-  if (points_.size() > 1) std::ranges::for_each(found_.parts, join_parts);
+  if (faces() > 1) std::ranges::for_each(found_.parts, join_parts);
 }
 
 void Shafts::touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid) {
@@ -141,9 +142,10 @@ void Shafts::touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid
                        batches_[first / kMostBatches], touched_[face].data());
       },
       [&](std::uint32_t triangle, std::uint32_t batch) {
-        for_each_piece(view, *caster.surface, grid.vertices(), triangle, [&](const LargeTriangle& piece) {
+        const auto touch_piece = [&](const LargeTriangle& piece) {
           touch(piece, face, batches_[batch / kMostBatches], std::uint64_t{1} << batch % kMostBatches);
-        });
+        };
+        for_each_piece(view, *caster.surface, grid.vertices(), triangle, std::cref(touch_piece));
       });
 }
 
@@ -156,10 +158,11 @@ void Shafts::touch(const LargeTriangle& piece, std::size_t face, std::uint64_t& 
   Points& points = points_[face];
   const Shaft& shaft = reach_[face].shaft;
   const auto found = points.tree().find(kernels_, piece.box(), shaft.spread, found_by_large_);
-  visit_behind(piece, shaft, points.vectors(), found, [&](std::uint32_t vector) {
+  const auto touch_vector = [&](std::uint32_t vector) {
     touching |= bit;
     touched_[face][vector] = 1;
-  });
+  };
+  visit_behind(piece, shaft, points.vectors(), found, std::cref(touch_vector));
 }
 
 void Shafts::keep_batches(const ChunkCaster& caster) {

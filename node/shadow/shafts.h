@@ -49,6 +49,8 @@ class Shafts {
   const std::vector<Points>& points() const { return points_; }
 
  private:
+  // Those of the light: there may be room for more.
+  std::size_t faces() const { return light_->middle.size(); }
   void touch(const ChunkCaster& caster, std::size_t face, GridCaster& grid);
   void touch_all(std::size_t face);
   // `bit` is set in `touching` where the piece of a large triangle meets shafts.
@@ -60,6 +62,7 @@ class Shafts {
   std::uint32_t samples_ = 0;
   const LightViews* light_ = nullptr;
   std::span<Layer* const> layers_;
+  std::vector<float> high_z_;                       // by face
   std::vector<ShaftReach> reach_;                   // by face
   std::vector<Points> points_;                      // by face
   std::vector<std::vector<std::uint8_t>> touched_;  // vectors

@@ -101,11 +101,19 @@ TEST(Allocation, NoneWithLayers) {
 
 TEST(Allocation, NoneWithSkins) {
   for (const wire::Blend blend : {wire::Blend::linear, wire::Blend::dual_quaternions}) {
-    wire::FilmData film = bending(64, 36, 600, 3, blend);
-    for (wire::Light& light : film.lights) light.casts = 0;
+    const wire::FilmData film = bending(64, 36, 400, 3, blend);
     expect_none_in_steady_state(film, nullptr);
     expect_none_in_steady_state(film, nullptr, wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, 1));
   }
+}
+
+// Of far lights and of lights in the midst, which see six ways, of points and of lights that have a size.
+TEST(Allocation, NoneWithShadows) {
+  expect_none_in_steady_state(casting(crowd(64, 36, 400, 3), {0.0f}), nullptr);
+  expect_none_in_steady_state(casting(richly_lit(with_samples(crowd(64, 36, 400, 3), 4)), {0.0f, 0.0f, 0.0f}), nullptr);
+  expect_none_in_steady_state(casting(crowd(64, 36, 400, 2), {0.1f, 0.1f}), nullptr);
+  expect_none_in_steady_state(casting(crowd(64, 36, 400, 3), {-1.0f, 0.0f}), nullptr,
+                              wire::with_layers(wire::PixelFormat::half, wire::kAllLayers, 1));
 }
 
 TEST(Allocation, NoneWhereTheRunIsTraced) {
