@@ -128,11 +128,12 @@ ImportedText import_patches(const ImportOptions& options, FileKind kind, const S
   check_places(scene, options.from.string());
   const modeler::Box box = box_of(scene), bounds = modeler::thickened(box);
   const std::vector<OneColor> colors = by_color(scene, bounds);
+  const std::size_t count = std::exchange(scene.patches, {}).size();  // their memory is needed for text
   ImportReport report{colors.size() == 1
                           ? "model of one joint '" + options.joint + "'"
                           : "model of " + std::to_string(colors.size()) + " joints, the first '" + options.joint + "'",
                       box_text(box.max - box.min, factor, kind, stance),
-                      {document::counted(scene.patches.size(), "patch", "patches")},
+                      {document::counted(count, "patch", "patches")},
                       {},
                       {},
                       skipped_text(scene)};

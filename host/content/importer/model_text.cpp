@@ -1,9 +1,11 @@
 #include "host/content/importer/model_text.h"
 
+#include <algorithm>
 #include <charconv>
 #include <deque>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -219,16 +221,19 @@ class ModelText {
 std::string material_name(std::size_t number) { return numbered("color", number); }
 
 document::TextPart shape_text(const std::vector<wire::Patch>& patches) {
-  std::string text;
-  append_rows(text, patches.size(), [&](std::size_t number) {
-    text += '[';
-    for (std::size_t i = 0; i < 16; ++i) {
-      if (i > 0) text += ", ";
-      append_row(text, patches[number].points[i].data(), 3);
-    }
-    text += ']';
-  });
-  return {std::move(text)};
+  const auto text_of = [](std::span<const wire::Patch> some) {
+    std::string text;
+    append_rows(text, some.size(), [&](std::size_t number) {
+      text += '[';
+      for (std::size_t i = 0; i < 16; ++i) {
+        if (i > 0) text += ", ";
+        append_row(text, some[number].points[i].data(), 3);
+      }
+      text += ']';
+    });
+    return text;
+  };
+  return {text_of(patches), text_of(std::span(patches).first(std::min<std::size_t>(patches.size(), 1)))};
 }
 
 document::TextPart shape_text(const modeler::Mesh& mesh, const MeshPaint& paint) {

@@ -36,7 +36,7 @@ struct WrittenJoint {
 // Of material 0, 1, ...
 std::string material_name(std::size_t number);
 
-// A shape as JSON. In brief a mesh is a triangle that follows as many bones.
+// A shape as JSON. In brief patches are the first one, and a mesh is a triangle that follows as many bones.
 document::TextPart shape_text(const std::vector<wire::Patch>& patches);
 document::TextPart shape_text(const modeler::Mesh& mesh, const MeshPaint& paint = {});
 

@@ -27,9 +27,15 @@ struct PatchScene {
   bool is_left_handed = false;                 // x, y, z are right, up, and away from who looks
 };
 
-// A scene with more patches, or with deeper nesting, is refused.
-inline constexpr std::size_t kMostScenePatches = 2'000'000, kDeepestScene = 200;
+// A scene with more patches, or with deeper nesting, is refused, while it takes less than half a gigabyte: to make a
+// model of a patch takes as many bytes, most of them text.
+inline constexpr std::size_t kMostScenePatches = 500'000, kBytesOfPatch = 2'500, kDeepestScene = 200;
+// Numbers in brackets, as of a mesh of so many patches that have no points in common but on their edges.
+inline constexpr std::size_t kMostSceneNumbers = std::size_t{1} << 24;
 inline constexpr std::uintmax_t kLargestPatchScene = std::uintmax_t{1} << 28;
+
+// Of a scene with more than kMostScenePatches patches.
+std::string too_many_patches();
 
 void transform(std::vector<ScenePatch>& patches, const glm::dmat4& by);
 

@@ -100,7 +100,7 @@ class PovReader {
 
   void append(Patches more, Patches& patches) const {
     if (patches.size() + more.size() > kMostScenePatches)
-      in_.refuse("has more than " + std::to_string(kMostScenePatches) + " patches", "import parts of it by themselves");
+      in_.refuse(too_many_patches(), "import parts of it by themselves");
     patches.insert(patches.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
   }
 
@@ -329,6 +329,11 @@ class PovReader {
 };
 
 }  // namespace
+
+std::string too_many_patches() {
+  return document::formatted("has more than %zu patches, which need more than %.2f GB of memory", kMostScenePatches,
+                             double(kMostScenePatches * kBytesOfPatch) / 1e9);
+}
 
 void transform(std::vector<ScenePatch>& patches, const glm::dmat4& by) {
   for (ScenePatch& patch : patches)

@@ -345,8 +345,7 @@ class RibReader {
   }
 
   void add(const ScenePatch& patch) {
-    if (scene_.patches.size() == kMostScenePatches)
-      refuse("has more than " + std::to_string(kMostScenePatches) + " patches", "import parts of it by themselves");
+    if (scene_.patches.size() == kMostScenePatches) refuse(too_many_patches(), "import parts of it by themselves");
     scene_.patches.push_back(patch);
   }
 

@@ -5,6 +5,7 @@
 
 #include "hal/failure/failure.h"
 #include "host/content/document/text.h"
+#include "host/content/importer/patches/patch_scene.h"
 
 namespace mars::importer {
 namespace {
@@ -67,6 +68,7 @@ RibArgument RibWords::array() {
       all.text = text();
     else
       all.numbers.push_back(number());
+    if (all.numbers.size() > kMostSceneNumbers) refuse(too_many_patches(), "import parts of it by themselves");
   }
   rest_.remove_prefix(1);
   return all;

@@ -1,6 +1,7 @@
 // mars import of POV-Ray's and RIB's bicubic patches: control points are where both programs' formulas put them,
 // computed here; what else the files have is counted; damaged files are failures with their line.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cmath>
@@ -148,6 +149,26 @@ TEST_F(Patches, BecomeAModelOfAJointForEachColor) {
 TEST_F(Patches, ColoursThatAreNoNumbersAreDark) {
   const PatchScene scene = pov(pov_patch("pigment { rgb <0/0, 2, -1> }"));
   EXPECT_EQ(scene.patches[0].color, (PatchColor{0, 1, 0}));
+}
+
+// They say what they would need before they take it.
+TEST_F(Patches, TooManyAreRefusedInLittleMemory) {
+  const auto refusal = [](const char* where) {
+    return std::string(where) + ": has more than 500000 patches, which need more than 1.25 GB of memory";
+  };
+  std::string mesh = "PatchMesh \"bilinear\" 1001 \"nonperiodic\" 502 \"nonperiodic\" \"P\" [";
+  for (int i = 0; i < 1001 * 502; ++i) mesh += "0 1 2 ";
+  const std::string many = failure_of([&] { rib(mesh + "]"); });
+  EXPECT_TRUE(holds(many, refusal("file.rib:1"))) << many;
+  std::string numbers = "PatchMesh \"bicubic\" 2 \"nonperiodic\" 2 \"nonperiodic\" \"P\" [";
+  for (int i = 0; i < (1 << 24) + 1; ++i) numbers += "0 ";
+  const std::string listed = failure_of([&] { rib(numbers + "]"); });
+  EXPECT_TRUE(holds(listed, refusal("file.rib:1"))) << listed;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  struct rusage used {};
+  getrusage(RUSAGE_SELF, &used);
+  EXPECT_LT(used.ru_maxrss, 500'000) << "kB";
+#endif
 }
 
 TEST_F(Patches, DamagedFilesAreFailuresWithTheirLine) {
