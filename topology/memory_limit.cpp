@@ -68,6 +68,12 @@ std::uint64_t MemoryLimit::least() const { return lesser(together, lesser(each.a
 
 MemoryLimit memory_limit(const fs::path& root) { return {group_limit(root), process_limit(), process_memory(root)}; }
 
+std::uint64_t usable_memory() {
+  const std::uint64_t bytes = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
+  const std::uint64_t limit = memory_limit().least();
+  return limit == 0 ? bytes : std::min(bytes, limit);
+}
+
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {
   const std::uint64_t known = machine_bytes != 0 ? machine_bytes : kUnknownMemory;
   std::uint64_t share = std::min(kMostShare, lesser(known, limit.together) / static_cast<std::uint64_t>(processes) / 2);

@@ -25,6 +25,9 @@ struct MemoryLimit {
   bool operator==(const MemoryLimit&) const = default;
 };
 
+// Bytes that the calling process may use: the machine's, or the least limit's.
+std::uint64_t usable_memory();
+
 // Of the calling process. `root` is where proc/ and sys/ are.
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");
 

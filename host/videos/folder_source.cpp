@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/checksum.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/elementary/elementary.h"
 #include "host/content/film/film_file.h"
@@ -23,7 +22,7 @@ namespace fs = std::filesystem;
 
 std::optional<film::CompiledFilm> film_in(const fs::path& folder, const sinks::Manifest& manifest) try {
   film::CompiledFilm film = film::load_compiled_film(folder / sinks::kFilmName);
-  if (document::checksum_of(film.block()) != manifest.checksum) return std::nullopt;
+  if (film.checksum() != manifest.checksum) return std::nullopt;
   return film;
 } catch (const Failure&) {
   return std::nullopt;

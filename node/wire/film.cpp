@@ -447,6 +447,10 @@ void PackedFilm::check_skin(const Skin& skin, std::uint32_t points, const std::s
   }
 }
 
+const Interval& PackedFilm::interval_at(std::uint32_t frame) const {
+  return *std::prev(std::ranges::upper_bound(intervals_, frame, {}, &Interval::first_frame));
+}
+
 std::span<const std::uint32_t> PackedFilm::moving(const Interval& interval) const {
   return moving_.subspan(interval.first_moving, interval.moving_count);
 }

@@ -141,6 +141,7 @@ class PackedFilm {
     return bones_.subspan(segment.first_bone, segment.bone_count);
   }
 
+  const Interval& interval_at(std::uint32_t frame) const;
   // Segments and bones; and the segments alone.
   std::span<const std::uint32_t> moving(const Interval& interval) const;
   std::span<const std::uint32_t> moving_segments(const Interval& interval) const;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -49,14 +50,18 @@ class RegularFile {
 
   bool is_missing() const { return number_ < 0 && (error_ == ENOENT || error_ == ENOTDIR); }
 
-  // Refuses what is no regular file.
-  std::uintmax_t size() const {
+  // Refuses what is no regular file, or larger than `largest` bytes.
+  std::uintmax_t size(std::uintmax_t largest = std::numeric_limits<std::uintmax_t>::max()) const {
     struct stat status {};
     if (number_ < 0 && error_ != ENXIO) fail_to_read(path_, error_);
     if (number_ >= 0 && fstat(number_, &status) != 0) fail_to_read(path_, errno);
     if (S_ISDIR(status.st_mode)) throw Failure("is a directory, not a file", path_.string(), "name a file in it");
     if (!S_ISREG(status.st_mode)) throw Failure("is not a regular file", path_.string(), "name a file on a disk");
-    return static_cast<std::uintmax_t>(status.st_size);
+    const auto size = static_cast<std::uintmax_t>(status.st_size);
+    if (size > largest)
+      throw Failure("has " + std::to_string(size) + " bytes, too many to read", path_.string(),
+                    "at most " + std::to_string(largest) + " bytes can be read");
+    return size;
   }
 
   // The next bytes; fewer at its end.
@@ -86,11 +91,7 @@ std::optional<std::string> read_file_if_there(const fs::path& path, std::uintmax
   RecordedReads::record(path);
   const RegularFile file(path);
   if (file.is_missing()) return std::nullopt;
-  const std::uintmax_t size = file.size();
-  if (size > largest)
-    throw Failure("has " + std::to_string(size) + " bytes, too many to read", path.string(),
-                  "at most " + std::to_string(largest) + " bytes can be read");
-  return file.read_next(size);
+  return file.read_next(file.size(largest));
 }
 
 std::string read_file(const fs::path& path, std::uintmax_t largest) {
@@ -99,12 +100,13 @@ std::string read_file(const fs::path& path, std::uintmax_t largest) {
   return std::move(*content);
 }
 
-bool read_pieces(const fs::path& path, const std::function<void(std::string_view piece)>& take) {
+bool read_pieces(const fs::path& path, const std::function<void(std::string_view piece)>& take,
+                 std::uintmax_t largest) {
   constexpr std::size_t kPiece = std::size_t{1} << 20;
   RecordedReads::record(path);
   const RegularFile file(path);
   if (file.is_missing()) return false;
-  file.size();  // refuses what is no regular file
+  file.size(largest);  // refuses what is no regular file
   for (std::string piece = file.read_next(kPiece); !piece.empty(); piece = file.read_next(kPiece)) take(piece);
   return true;
 }

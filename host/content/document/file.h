@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,8 +20,9 @@ std::string read_file(const std::filesystem::path& path, std::uintmax_t largest 
 // As read_file(); none where it is missing.
 std::optional<std::string> read_file_if_there(const std::filesystem::path& path, std::uintmax_t largest);
 
-// Reads a file of any size piece by piece; false where it is missing. Refuses what is no regular file.
-bool read_pieces(const std::filesystem::path& path, const std::function<void(std::string_view piece)>& take);
+// Reads a file piece by piece; false where it is missing. Refuses what is no regular file, or too large.
+bool read_pieces(const std::filesystem::path& path, const std::function<void(std::string_view piece)>& take,
+                 std::uintmax_t largest = std::numeric_limits<std::uintmax_t>::max());
 
 // The first bytes of a regular file: fewer where it is shorter, none where it cannot be read.
 std::string read_start(const std::filesystem::path& path, std::size_t bytes);

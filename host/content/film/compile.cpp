@@ -63,7 +63,7 @@ class Compiler {
     if (options_.eye != Eye::middle) see_by(options_.eye, film_, data_);
     set_window(options_.crop, options_.margin, film_.source, data_.settings);
     writer_.write_segments(write_shapes(film_, data_));
-    CompiledFilm compiled;
+    CompiledFilm compiled = empty_film(options_.in_file);
     const std::size_t matrices = write_motion(film_, data_, compiled.lines);
     cut_intervals(data_, options_.cutting.value_or(film_.cutting), keyframes());
     pack(matrices, compiled);
@@ -121,6 +121,7 @@ class Compiler {
       film.lines.resize(bytes / sizeof(CompiledFilm::Line));
       return reinterpret_cast<std::byte*>(film.lines.data());
     });
+    let_pages_go(film.lines);
     film.source = film_.source;
     film.actors = static_cast<std::uint32_t>(film_.actors.size());
     for (const animator::Actor& actor : film_.actors)
@@ -183,7 +184,7 @@ CompiledFilm load_film(const std::filesystem::path& path, const CompileOptions& 
     throw Failure("is compiled, its intervals are cut", path.string(), "choose --intervals with the film file itself");
   if (options.eye != Eye::middle)
     throw Failure("is compiled, as its camera sees it", path.string(), "choose --eye with the film file itself");
-  CompiledFilm film = load_compiled_film(path);
+  CompiledFilm film = load_compiled_film(path, options.in_file);
   change_pixels(film, options);
   return film;
 }

@@ -22,6 +22,7 @@ struct CompileOptions {
   Eye eye = Eye::middle;
   std::optional<Crop> crop{};  // of the picture, all that is drawn; none: all of it
   std::uint32_t margin = 0;    // pixels that are drawn around that
+  bool in_file = false;        // the compiled film lies in a file, because little of it is looked at (lazy_memory.h)
 };
 
 CompiledFilm compile(const animator::Film& film, const CompileOptions& options = {});

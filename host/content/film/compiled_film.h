@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -26,7 +27,13 @@ struct CompiledFilm {
   std::uint32_t joints = 0;  // of all actors
 
   std::span<const std::byte> block() const { return std::as_bytes(std::span(lines)); }
+  // visit(piece) for all of the block, in order.
+  void visit_pieces(const std::function<void(std::span<const std::byte>)>& visit) const;
+  std::string checksum() const;  // of the block
   wire::PackedFilm view() const { return {block(), source, true}; }
 };
+
+// In memory alone, or in a file (lazy_memory.h).
+CompiledFilm empty_film(bool in_file);
 
 }  // namespace mars::film

@@ -1,6 +1,5 @@
 #include "host/content/film/describe.h"
 
-#include "host/content/document/checksum.h"
 #include "host/content/document/text.h"
 #include "host/content/film/panorama.h"
 
@@ -80,7 +79,7 @@ std::string describe(const CompiledFilm& film) {
   text += document::formatted("lights      %zu\n", view.light_tracks().size());
   text += document::formatted("matrices    %zu\n", view.matrices().size());
   text += document::formatted("bytes       %zu\n", film.block().size());
-  text += "checksum    " + document::checksum_of(film.block()) + "\n";
+  text += "checksum    " + film.checksum() + "\n";
   text += document::formatted("intervals   %zu\n", view.intervals().size());
   return text + table_of(view);
 }

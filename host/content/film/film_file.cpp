@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
@@ -27,10 +28,10 @@ struct Header {
 constexpr std::size_t kCompared = std::size_t{1} << 16;  // bytes at a time
 static_assert(sizeof(Header) == sizeof(CompiledFilm::Line));
 
-std::array<char, 32> checksum_over(const Header& header, std::span<const std::byte> block) {
+std::array<char, 32> checksum_over(const Header& header, const CompiledFilm& film) {
   document::Checksum checksum;
   checksum.add(std::as_bytes(std::span(&header, 1)).first(offsetof(Header, checksum)));
-  checksum.add(block);
+  film.visit_pieces([&](std::span<const std::byte> piece) { checksum.add(piece); });
   const std::string digits = checksum.digits();
   check(digits.size() == 32, "a checksum has 32 digits");
   std::array<char, 32> copy;
@@ -44,13 +45,60 @@ std::array<char, 32> checksum_over(const Header& header, std::span<const std::by
 
 void write_film(const CompiledFilm& film, const document::Write& write) {
   Header header{kMagic, wire::kFilmVersion, film.actors, film.joints, 0, film.block().size(), {}};
-  header.checksum = checksum_over(header, film.block());
+  header.checksum = checksum_over(header, film);
   const auto text_of = [](const void* bytes, std::size_t count) {
     return std::string_view(static_cast<const char*>(bytes), count);
   };
   write(text_of(&header, sizeof header));
-  write(text_of(film.block().data(), film.block().size()));
+  film.visit_pieces([&](std::span<const std::byte> piece) { write(text_of(piece.data(), piece.size())); });
 }
+
+// A film that is read piece by piece, so that it is in memory once.
+class FilmReading {
+ public:
+  FilmReading(const std::filesystem::path& path, bool in_file) : path_(path), film_(empty_film(in_file)) {}
+
+  void take(std::string_view piece) {
+    if (read_ == 0) piece = take_header(piece);
+    auto* const to = reinterpret_cast<char*>(film_.lines.data());
+    if (piece.size() > header_.block_bytes - read_) refuse(path_, "its size is wrong");
+    std::copy(piece.begin(), piece.end(), to + read_);
+    read_ += piece.size();
+    let_pages_go(film_.lines);
+  }
+
+  CompiledFilm film() {
+    if (film_.lines.empty() || read_ < header_.block_bytes) refuse(path_, "it is cut short");
+    if (checksum_over(header_, film_) != header_.checksum) refuse(path_, "its checksum is wrong");
+    film_.source = path_.string();
+    film_.actors = header_.actors;
+    film_.joints = header_.joints;
+    wire::PackedFilm(film_.block(), film_.source);  // checks every index
+    let_pages_go(film_.lines);
+    return std::move(film_);
+  }
+
+ private:
+  // The first piece, which has all of it; returns what is behind.
+  std::string_view take_header(std::string_view piece) {
+    if (piece.size() < sizeof header_) refuse(path_, "it is cut short");
+    std::memcpy(&header_, piece.data(), sizeof header_);
+    if (header_.magic != kMagic) refuse(path_, "it does not begin as one");
+    if (header_.version != wire::kFilmVersion)
+      refuse(path_, "it has version " + std::to_string(header_.version) + ", this program reads " +
+                        std::to_string(wire::kFilmVersion));
+    const std::uintmax_t bytes = std::filesystem::file_size(path_);
+    if (header_.block_bytes % sizeof(CompiledFilm::Line) != 0 || header_.block_bytes != bytes - sizeof header_)
+      refuse(path_, bytes - sizeof header_ < header_.block_bytes ? "it is cut short" : "its size is wrong");
+    film_.lines.resize(header_.block_bytes / sizeof(CompiledFilm::Line));
+    return piece.substr(sizeof header_);
+  }
+
+  const std::filesystem::path& path_;
+  Header header_{};
+  CompiledFilm film_;
+  std::size_t read_ = 0;  // bytes of the block
+};
 
 }  // namespace
 
@@ -81,26 +129,12 @@ bool is_compiled_film(const std::filesystem::path& path) {
   return document::read_start(path, kMagic.size()) == std::string_view(kMagic.data(), kMagic.size());
 }
 
-CompiledFilm load_compiled_film(const std::filesystem::path& path) {
-  const std::string bytes = document::read_file(path);
-  Header header;
-  if (bytes.size() < sizeof header) refuse(path, "it is cut short");
-  std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.magic != kMagic) refuse(path, "it does not begin as one");
-  if (header.version != wire::kFilmVersion)
-    refuse(path, "it has version " + std::to_string(header.version) + ", this program reads " +
-                     std::to_string(wire::kFilmVersion));
-  if (header.block_bytes != bytes.size() - sizeof header || header.block_bytes % sizeof(CompiledFilm::Line) != 0)
-    refuse(path, bytes.size() - sizeof header < header.block_bytes ? "it is cut short" : "its size is wrong");
-  CompiledFilm film;
-  film.lines.resize(header.block_bytes / sizeof(CompiledFilm::Line));
-  std::memcpy(film.lines.data(), bytes.data() + sizeof header, header.block_bytes);
-  if (checksum_over(header, film.block()) != header.checksum) refuse(path, "its checksum is wrong");
-  film.source = path.string();
-  film.actors = header.actors;
-  film.joints = header.joints;
-  wire::PackedFilm(film.block(), film.source);  // checks every index
-  return film;
+CompiledFilm load_compiled_film(const std::filesystem::path& path, bool in_file) {
+  FilmReading reading(path, in_file);
+  const auto take = [&](std::string_view piece) { reading.take(piece); };
+  if (!document::read_pieces(path, take, document::kLargestFileRead))
+    throw Failure("there is no such file", path.string(), "check its name");
+  return reading.film();
 }
 
 }  // namespace mars::film

@@ -18,6 +18,7 @@ bool is_saved(const CompiledFilm& film, const std::filesystem::path& path);
 // Whether the file begins as a .mars file; false if it cannot be read.
 bool is_compiled_film(const std::filesystem::path& path);
 
-CompiledFilm load_compiled_film(const std::filesystem::path& path);
+// `in_file`: as in CompileOptions.
+CompiledFilm load_compiled_film(const std::filesystem::path& path, bool in_file = false);
 
 }  // namespace mars::film

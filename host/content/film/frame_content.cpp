@@ -50,10 +50,6 @@ std::string checksum_of_shape(const wire::PackedFilm& film, const wire::Shape& s
   return sum.digits();
 }
 
-const wire::Interval& interval_of(const wire::PackedFilm& film, std::uint32_t frame) {
-  return *std::prev(std::ranges::upper_bound(film.intervals(), frame, {}, &wire::Interval::first_frame));
-}
-
 }  // namespace
 
 wire::FilmSettings shown_settings(wire::FilmSettings settings) {
@@ -77,7 +73,7 @@ std::string FrameContent::checksum(std::uint32_t frame) const {
     add_place(segment, frame, sum);
     add(sum, film_.material_at(segment, frame));
   }
-  add(sum, film_.moving(interval_of(film_, frame)));
+  add(sum, film_.moving(film_.interval_at(frame)));
   add_layers(frame, sum);
   return sum.digits();
 }

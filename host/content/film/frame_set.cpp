@@ -133,6 +133,10 @@ std::vector<std::uint32_t> FrameSet::of_film(std::uint32_t film_frames) const {
   return frames;
 }
 
+bool FrameSet::is_small_part(std::uint32_t film_frames) const {
+  return *this != FrameSet() && of_film(film_frames).size() <= film_frames / 4;
+}
+
 std::vector<std::uint32_t> FrameSet::first_frames(std::uint32_t count) const {
   std::set<std::uint32_t> frames;
   for (const Stretch& stretch : stretches_) {

@@ -35,6 +35,9 @@ class FrameSet {
   // The frames of a film of `film_frames`, ascending, each once. Throws Failure where the film is too short.
   std::vector<std::uint32_t> of_film(std::uint32_t film_frames) const;
 
+  // Whether it is a quarter of such a film's frames at most; throws as of_film() does.
+  bool is_small_part(std::uint32_t film_frames) const;
+
   // The first `count` of its frames, ascending; all, where it has fewer.
   std::vector<std::uint32_t> first_frames(std::uint32_t count) const;
 

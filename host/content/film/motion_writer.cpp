@@ -1,7 +1,5 @@
 #include "host/content/film/motion_writer.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -23,7 +21,8 @@ namespace {
 constexpr double kFarthestMatrix = 1e12;                        // as node/wire/film.h allows
 constexpr std::size_t kWorthAThread = 20'000;                   // matrices
 constexpr std::size_t kCapacityBehind = std::size_t{64} << 20;  // bytes; costs nothing until it is used
-constexpr std::size_t kBytesEach = sizeof(wire::Matrix) + 3 * sizeof(wire::Change);  // with lists on the way
+constexpr std::size_t kListedBytes = 3 * sizeof(wire::Change);  // of each, on the way
+constexpr std::size_t kMatricesAtATime = (std::size_t{64} << 20) / sizeof(wire::Matrix);  // of a film in a file
 
 // Frames at which something may differ from the frame before: (after, last], ascending and apart.
 struct Run {
@@ -149,27 +148,25 @@ std::vector<std::size_t> most_of_motion(const animator::Film& film, std::size_t 
   return most;
 }
 
-std::uint64_t memory_here() {
-  const std::uint64_t bytes = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
-  const std::uint64_t limit = topology::memory_limit().least();
-  return limit == 0 ? bytes : std::min(bytes, limit);
-}
-
 std::string gigabytes(std::uint64_t bytes) { return document::formatted("%.1f GB", double(bytes) / 1e9); }
 
 class MotionWriter {
  public:
-  MotionWriter(const animator::Film& film, wire::FilmData& data) : film_(film), data_(data) {}
+  MotionWriter(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines)
+      : film_(film), data_(data), lines_(lines) {}
 
-  std::size_t write(CompiledFilm::Lines& lines) {
+  std::size_t write() {
     plan();
-    matrices_ = reserve(most_matrices_, lines);
+    refuse_too_many();
+    matrices_ = reserve(most_matrices_);
+    refuse_too_many();                                     // there may be no file for them
     const std::size_t own_changes = data_.changes.size();  // of camera, lights and materials
     data_.changes.resize(own_changes + most_matrices_);
     for (Share& share : shares_) share.first_change += own_changes;
     play_all();
     const std::size_t matrices = close_gaps(own_changes);
-    lines.resize(lines_of(matrices));
+    lines_.resize(lines_of(matrices));
+    let_pages_go(lines_);
     return matrices;
   }
 
@@ -179,11 +176,11 @@ class MotionWriter {
            sizeof(CompiledFilm::Line);
   }
 
-  static wire::Matrix* reserve(std::size_t matrices, CompiledFilm::Lines& lines) {
+  wire::Matrix* reserve(std::size_t matrices) {
     // Capacity for what follows them, mostly their changes, so that they need not be moved again.
-    lines.reserve(lines_of(matrices + matrices / 4) + kCapacityBehind / sizeof(CompiledFilm::Line));
-    lines.resize(lines_of(matrices));
-    return reinterpret_cast<wire::Matrix*>(reinterpret_cast<std::byte*>(lines.data()) + wire::kMatricesOffset);
+    lines_.reserve(lines_of(matrices + matrices / 4) + kCapacityBehind / sizeof(CompiledFilm::Line));
+    lines_.resize(lines_of(matrices));
+    return reinterpret_cast<wire::Matrix*>(reinterpret_cast<std::byte*>(lines_.data()) + wire::kMatricesOffset);
   }
 
   void plan() {
@@ -200,7 +197,6 @@ class MotionWriter {
       for (const std::size_t most : share.most) most_matrices_ += most;
       shares_.push_back(std::move(share));
     }
-    refuse_too_many();
   }
 
   void add_tracks(wire::Segment& segment, Share& share) {
@@ -209,7 +205,8 @@ class MotionWriter {
   }
 
   void refuse_too_many() const {
-    const std::uint64_t needed = most_matrices_ * kBytesEach, here = memory_here();
+    const std::size_t bytes_each = kListedBytes + (lines_.get_allocator().in_file ? 0 : sizeof(wire::Matrix));
+    const std::uint64_t needed = most_matrices_ * bytes_each, here = topology::usable_memory();
     const std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - data_.changes.size();
     if (needed <= here && most_matrices_ <= most) return;
     throw Failure("moves so much that it needs " + std::to_string(most_matrices_) + " T-matrices, " +
@@ -317,6 +314,7 @@ class MotionWriter {
     check(writing.count < share.most[writing.number], "a segment moves as often as was planned");
     const std::size_t place = share.first_matrix + share.matrices++;
     matrices_[place] = matrix;
+    if (place % kMatricesAtATime == 0) let_pages_go(lines_);
     writing.changes[writing.count++] = {frame, static_cast<std::uint32_t>(place)};
   }
 
@@ -328,6 +326,8 @@ class MotionWriter {
       if (down > 0)
         std::memmove(static_cast<void*>(matrices_ + matrix_to), matrices_ + share.first_matrix,
                      share.matrices * sizeof(wire::Matrix));
+      if (down > 0 && matrix_to / kMatricesAtATime != (matrix_to + share.matrices) / kMatricesAtATime)
+        let_pages_go(lines_);
       std::size_t from = share.first_change;
       for (std::size_t i = 0; i < share.tracks.size(); ++i) {
         const std::uint32_t count = share.changes[i];
@@ -347,6 +347,7 @@ class MotionWriter {
 
   const animator::Film& film_;
   wire::FilmData& data_;
+  CompiledFilm::Lines& lines_;
   std::vector<Share> shares_;
   std::size_t most_matrices_ = 0;
   wire::Matrix* matrices_ = nullptr;
@@ -379,7 +380,7 @@ void check_volume(const wire::Matrix& matrix, const animator::Film& film, std::s
 }
 
 std::size_t write_motion(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines) {
-  return MotionWriter(film, data).write(lines);
+  return MotionWriter(film, data, lines).write();
 }
 
 }  // namespace mars::film

@@ -9,39 +9,10 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
+#include "host/content/film/unpacked.h"
 
 namespace mars::film {
 namespace {
-
-template <typename T>
-std::vector<T> copy_of(std::span<const T> items) {
-  return {items.begin(), items.end()};
-}
-
-// What the film of faces has as the panorama has it.
-wire::FilmData data_of(const wire::PackedFilm& film) {
-  wire::FilmData data;
-  data.settings = film.settings();
-  data.patches = copy_of(film.patches());
-  data.mesh_places = copy_of(film.mesh_places());
-  data.mesh_normals = copy_of(film.mesh_normals());
-  data.mesh_triangles = copy_of(film.mesh_triangles());
-  data.net_points = copy_of(film.net_points());
-  data.stencil_terms = copy_of(film.stencil_terms());
-  data.stencils = copy_of(film.stencils());
-  data.net_patches = copy_of(film.net_patches());
-  data.skin_bones = copy_of(film.skin_bones());
-  data.skin_weights = copy_of(film.skin_weights());
-  data.meshlets = copy_of(film.meshlets());
-  data.shapes = copy_of(film.shapes());
-  data.segments = copy_of(film.segments());
-  data.bones = copy_of(film.bones());
-  data.materials = copy_of(film.materials());
-  data.lights = copy_of(film.lights());
-  data.light_tracks = copy_of(film.light_tracks());
-  data.names = copy_of(film.names());
-  return data;
-}
 
 // What the camera's axes are to the face, from the world.
 wire::Camera face_camera(const wire::Camera& camera, const FaceAxes& axes, std::uint32_t width) {
@@ -111,7 +82,7 @@ class FaceTracks {
 
 // Of all faces the same segments move.
 void write_intervals(const wire::PackedFilm& panorama, wire::FilmData& faces) {
-  std::vector<wire::Interval> of_face = copy_of(panorama.intervals());
+  std::vector<wire::Interval> of_face(panorama.intervals().begin(), panorama.intervals().end());
   for (wire::Interval& interval : of_face) {
     const auto moving = panorama.moving(interval);
     interval.first_moving = static_cast<std::uint32_t>(faces.moving.size());
@@ -121,19 +92,6 @@ void write_intervals(const wire::PackedFilm& panorama, wire::FilmData& faces) {
     faces.intervals.insert(faces.intervals.end(), of_face.begin(), of_face.end());
     for (wire::Interval& interval : of_face) interval.first_frame += panorama.settings().frames;
   }
-}
-
-CompiledFilm packed(const wire::FilmData& data, std::span<const wire::Matrix> matrices, const CompiledFilm& panorama) {
-  CompiledFilm film;
-  wire::pack_around(data, matrices.size(), [&](std::size_t bytes) {
-    film.lines.resize(bytes / sizeof(CompiledFilm::Line));
-    return reinterpret_cast<std::byte*>(film.lines.data());
-  });
-  std::ranges::copy(std::as_bytes(matrices), reinterpret_cast<std::byte*>(film.lines.data()) + wire::kMatricesOffset);
-  film.source = panorama.source;
-  film.actors = panorama.actors;
-  film.joints = panorama.joints;
-  return film;
 }
 
 }  // namespace
@@ -160,7 +118,8 @@ void check_panorama(const CompiledFilm& panorama) {
 CompiledFilm faces_of(const CompiledFilm& panorama) {
   check_panorama(panorama);
   const wire::PackedFilm view = panorama.view();
-  wire::FilmData data = data_of(view);
+  wire::FilmData data = unpacked(view);
+  data.cameras.clear();
   data.settings.width = data.settings.height = face_side(view.settings().width);
   data.settings.frames = static_cast<std::uint32_t>(kFaces) * view.settings().frames;
   FaceTracks tracks(view, data);

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/content/document/checksum.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/content/film/film_file.h"
@@ -43,9 +42,10 @@ bool is_asked_for(const Manifest& there, const Wish& wish) {
 }
 
 // The film that the folder keeps, if it is the one that its manifest names.
-std::optional<film::CompiledFilm> load_kept_film(const std::string& folder, const Manifest& there) try {
-  film::CompiledFilm film = film::load_compiled_film(kept_film(folder));
-  if (document::checksum_of(film.block()) != there.checksum) return std::nullopt;
+std::optional<film::CompiledFilm> load_kept_film(const std::string& folder, const Manifest& there,
+                                                 const film::FrameSet& frames = {}) try {
+  film::CompiledFilm film = film::load_compiled_film(kept_film(folder), frames.is_small_part(there.film_frames));
+  if (film.checksum() != there.checksum) return std::nullopt;
   return film;
 } catch (const Failure&) {
   return std::nullopt;
@@ -199,10 +199,10 @@ class Opening {
     kept_.reset();
     edit_.reset();
     refusal_.reset();
-    if (seen_ && is_asked_for(*seen_, wish_)) kept_ = load_kept_film(wish_.folder, *seen_);
+    if (seen_ && is_asked_for(*seen_, wish_)) kept_ = load_kept_film(wish_.folder, *seen_, wish_.frames);
     if (kept_) return;
     compile();
-    if (seen_ && document::checksum_of(compiled_->block()) != seen_->checksum) compare();
+    if (seen_ && compiled_->checksum() != seen_->checksum) compare();
   }
 
   // With what the folder's frames show.
@@ -237,7 +237,7 @@ class Opening {
     const wire::PackedFilm view = film().view();
     const wire::FilmSettings& settings = view.settings();
     Manifest manifest{wish_.film,
-                      document::checksum_of(film().block()),
+                      film().checksum(),
                       settings.width,
                       settings.height,
                       wish_.form.format,

@@ -19,10 +19,10 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/process.h"
 #include "hal/nx/nx_messages.h"
-#include "host/content/document/checksum.h"
 #include "host/content/document/file_failure.h"
 #include "host/content/document/recorded_reads.h"
 #include "host/content/document/whole_file.h"
+#include "host/content/film/excerpt.h"
 #include "host/content/film/frame_content.h"
 #include "host/render/farm/assembly.h"
 #include "host/render/farm/farm.h"
@@ -69,6 +69,7 @@ struct Output {
 
   StatusBoard board;
   film::CompiledFilm film;                     // what its frames are of
+  std::optional<film::CompiledFilm> excerpt;   // of that, what they show; none: all of it
   std::unique_ptr<sinks::FrameFolder> folder;  // none: frames go nowhere
   std::unique_ptr<sinks::Sink> sink;
   std::unique_ptr<sinks::SinkPool> pool;
@@ -308,9 +309,8 @@ void write_report(const RenderJob& job, const film::CompiledFilm& film, const fa
                   const farm::FarmReport& report) {
   const farm::HostMemory memory = report.node_files == report.frames.size() ? farm::where_nodes_write(shared) : shared;
   const wire::FilmSettings& settings = film.view().settings();
-  const report::ReportHead head{
-      job.film, document::checksum_of(film.block()), job.backend, job.arguments, settings.width, settings.height,
-      memory};
+  const report::ReportHead head{job.film,       film.checksum(), job.backend, job.arguments,
+                                settings.width, settings.height, memory};
   document::write_whole_file(job.report, report::report_text(head, report));
 }
 
@@ -323,7 +323,9 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   if (opened.frames.empty()) return render_nothing(job, reporter);
   output.film = std::move(opened.film);
   const film::CompiledFilm& film = output.film;
-  const wire::PackedFilm view = film.view();
+  heartbeats.during("loading", [&] { output.excerpt = film::excerpt_of(film, opened.frames); });
+  const film::CompiledFilm& drawn = output.excerpt ? *output.excerpt : film;
+  const wire::PackedFilm view = drawn.view();
   const wire::FilmSettings& settings = view.settings();
   refuse_colors_without_light(job, settings);
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
@@ -339,7 +341,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   farm::FarmOptions options = farm_options(job, memory, trace, heartbeats, watch.get());
   options.writing = writing ? &*writing : nullptr;
   const farm::FarmReport report =
-      render_frames(film, plan, options, output, reporter.listener(view.intervals().size()));
+      render_frames(drawn, plan, options, output, reporter.listener(view.intervals().size()));
   const auto write = [&](const std::string& file, const std::function<void()>& whole) {
     sinks::Patience(bounds_of(reporter)).write(file, whole);
   };

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "host/content/document/checksum.h"
 #include "host/content/document/file.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/whole_file.h"
@@ -61,7 +60,7 @@ Manifest manifest_of(const film::CompiledFilm& film) {
   const wire::PackedFilm view = film.view();
   const wire::FilmSettings& settings = view.settings();
   Manifest manifest;
-  manifest.checksum = document::checksum_of(film.block());
+  manifest.checksum = film.checksum();
   manifest.width = settings.width;
   manifest.height = settings.height;
   manifest.place = images::place_of(settings);
@@ -162,7 +161,7 @@ class Restoring {
       return false;
     if (mark.film == manifest_.checksum) return true;
     if (mark.content.empty()) return false;
-    if (!content_ && film_ && document::checksum_of(film_->block()) != manifest_.checksum) film_.reset();
+    if (!content_ && film_ && film_->checksum() != manifest_.checksum) film_.reset();
     if (!film_) return false;
     if (!content_) content_.emplace(film_->view(), manifest_.layers);
     return content_->checksum(frame) == mark.content;

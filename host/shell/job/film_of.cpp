@@ -21,9 +21,10 @@ constexpr const char* kTrial = R"({
 
 constexpr const char* kNoActors = ": has no actors: every frame shows the background alone (give the film actors)";
 
-film::CompiledFilm load_with_warnings(const std::string& path, const film::CompileOptions& compiling,
-                                      const Warn& warn) {
+film::CompiledFilm load_with_warnings(const std::string& path, film::CompileOptions compiling,
+                                      const film::FrameSet& frames, const Warn& warn) {
   if (film::is_compiled_film(path)) {
+    compiling.in_file = frames != film::FrameSet();
     film::CompiledFilm film = film::load_film(path, compiling);
     if (film.actors == 0) warn(path + kNoActors);
     return film;
@@ -31,6 +32,7 @@ film::CompiledFilm load_with_warnings(const std::string& path, const film::Compi
   const animator::Film film = animator::read_film(path);
   if (film.actors.empty()) warn(path + kNoActors);
   for (const std::string& line : animator::warnings_of(film)) warn(line);
+  compiling.in_file = frames.is_small_part(film.frames);
   return film::compile(film, compiling);
 }
 
@@ -44,7 +46,7 @@ film::CompiledFilm load_as_written(const options::RenderOptions& options, const 
   compiling.margin = options.margin;
   if (options.film == options::kTrialFilm)
     return film::compile(animator::read_film(document::Document(kTrial, options::kTrialFilm).root(), {}), compiling);
-  return load_with_warnings(options.film, compiling, warn);
+  return load_with_warnings(options.film, compiling, options.faces ? film::FrameSet() : options.frames, warn);
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ bool FilmVideos::are_there() {
   for (const std::string& file : options_.videos)
     if (!document::file_exists(file) || !videos::mark_of(videos::comment_of(file))) return false;
   const film::CompiledFilm film = job::load_film_of(options_, [](const std::string&) {});
-  const std::string checksum = document::checksum_of(film.block());
+  const std::string checksum = film.checksum();
   for (const std::string& file : options_.videos)
     if (!is_there(file, checksum, film.view().settings().frames)) return false;
   for (const std::string& file : options_.videos) display_.print(file + " is there already");

@@ -1,0 +1,18 @@
+// The part of a film that some of its frames show: all of it, but of the T-matrices of things that move only those of
+// these frames. Nodes that draw few frames of a long film need no more, and the host keeps gigabytes to itself.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "host/content/film/compiled_film.h"
+
+namespace mars::film {
+
+// A film of as many frames, in which the given ones, the ones before them (of which motion is seen) and the first ones
+// of their intervals are as in `film`, and the same segments move in each interval; other frames show anything. None
+// where that is more than half as large. `frames` ascend.
+std::optional<CompiledFilm> excerpt_of(const CompiledFilm& film, std::span<const std::uint32_t> frames);
+
+}  // namespace mars::film
