@@ -47,6 +47,15 @@ class Memory(ProgramTest):
             self.assertIn("set MARS_MEMORY to ", refused.stderr)
             self.assertNotIn("node 0", refused.stderr)
 
+    @unittest.skipIf(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") > 40 << 30, "the machine has so much")
+    def test_pictures_that_the_host_cannot_keep_are_refused_with_what_helps(self):
+        refused = self.mars("render", self.film(), "--size", "16384x16384", "--format", "exr", "--layers", "all", "-o",
+                            "out", "--backend", "threads", "--nodes", 2)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("GB of memory, where there are", refused.stderr)
+        self.assertIn("render a smaller picture (--size)", refused.stderr)
+        self.assertIn("fewer layers (--layers)", refused.stderr)
+
     @unittest.skipIf(SANITIZED, "sanitizers have memory of their own")
     def test_the_plan_covers_what_processes_take(self):
         words = [self.film(), *SIZE, "--nodes", "2", "--groups", "1", "--sink", "none"]

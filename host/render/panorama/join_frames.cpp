@@ -4,6 +4,7 @@
 #include <atomic>
 #include <future>
 #include <mutex>
+#include <numbers>
 #include <string>
 
 #include "hal/failure/failure.h"
@@ -81,20 +82,21 @@ class Work {
   std::size_t done_ = 0;
 };
 
-// Of a frame that is joined: faces as light, one as a file's pixels, and the frame with its file.
-std::uint64_t bytes_of_frame(std::uint32_t width) {
-  const std::uint64_t side = film::face_side(width), face = side * side, frame = std::uint64_t{width} * width / 2;
-  constexpr std::uint64_t kFilePixel = 16, kFramePixel = 16;
-  return face * (film::kFaces * sizeof(Light) + kFilePixel) + frame * kFramePixel;
-}
-
 std::size_t threads_of(const Joining& joining) {
-  const std::uint64_t room = joining.memory / bytes_of_frame(joining.panorama.settings().width);
+  const std::uint32_t side = film::face_side(joining.panorama.settings().width);
+  const std::uint64_t room = joining.memory / joining_bytes(side, images::facts_of(joining.folder.format()).pixels);
   const std::uint64_t most = std::min<std::uint64_t>(joining.processors, joining.frames.size());
   return static_cast<std::size_t>(std::clamp<std::uint64_t>(room, 1, std::max<std::uint64_t>(most, 1)));
 }
 
 }  // namespace
+
+// Faces as light, one as a file's pixels, and the frame with its file. A frame is as wide as four faces, by pi / 4.
+std::uint64_t joining_bytes(std::uint32_t side, wire::PixelFormat pixels) {
+  constexpr double kFacePixel = film::kFaces * sizeof(Light) + 16;
+  constexpr double kFrame = std::numbers::pi * std::numbers::pi / 2;  // pixels of a frame, in those of a face
+  return static_cast<std::uint64_t>(double(side) * side * (kFacePixel + kFrame * double(wire::pixel_bytes(pixels))));
+}
 
 void join_frames(const Joining& joining, const std::function<void(std::size_t)>& joined) {
   Work work(joining, joined);

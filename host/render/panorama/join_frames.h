@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "node/wire/film.h"
+#include "node/wire/pixel_format.h"
 #include "host/render/sinks/frame_folder.h"
 
 namespace mars::panorama {
@@ -20,6 +21,9 @@ struct Joining {
   std::uint32_t processors = 1;
   std::uint64_t memory = 0;  // bytes that it may take, but for what one frame takes
 };
+
+// That one frame of these pixels takes, where a face has `side` pixels a side.
+std::uint64_t joining_bytes(std::uint32_t side, wire::PixelFormat pixels);
 
 // `joined` is called with the number of frames that are done, from several threads, one at a time. Throws
 // sinks::DamagedFrame where a face is missing or torn, and Failure where a frame cannot be written.

@@ -21,6 +21,7 @@
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/file_failure.h"
 #include "host/content/document/recorded_reads.h"
+#include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/excerpt.h"
 #include "host/content/film/frame_content.h"
@@ -94,6 +95,20 @@ farm::HostMemory memory_for(const HostMachine& host, const wire::FilmSettings& f
                             const farm::Plan& plan) {
   return farm::share_host_memory(host.memory, film, format, static_cast<std::uint32_t>(numnodes()),
                                  static_cast<std::uint32_t>(plan.groups.size()), sink_threads(host));
+}
+
+// Before anything is drawn; nodes, which draw a picture in parts, have enough where the host has.
+void check_pictures(const farm::HostMemory& memory, const std::string& film) {
+  const std::uint32_t kept = memory.backgrounds;  // buffers, and each group's saved background
+  const std::uint64_t needed = kept * memory.frame_bytes, here = topology::usable_memory();
+  if (needed <= here) return;
+  const auto gigabytes = [](std::uint64_t bytes) { return document::formatted("%.1f GB", double(bytes) / 1e9); };
+  throw Failure("has pictures of " + gigabytes(memory.frame_bytes) + ", of which the host keeps " +
+                    std::to_string(kept) + ": it needs " + gigabytes(needed) + " of memory, where there are " +
+                    gigabytes(here),
+                film,
+                "render a smaller picture (--size), or parts of it by themselves (--crop), or fewer layers (--layers)"
+                " or groups (--groups)");
 }
 
 // What nodes draw: what files hold, or the light that a view shows in them.
@@ -331,6 +346,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   const auto [plan, prediction] = plan_of(view, opened.frames, job, reporter, heartbeats);
   const HostMachine host = host_machine(job.host);
   const farm::HostMemory memory = memory_for(host, settings, drawn_pixels(job, settings), plan);
+  check_pictures(memory, job.film);
 
   output.folder = std::move(opened.folder);
   if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });

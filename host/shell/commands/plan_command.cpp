@@ -21,6 +21,7 @@
 #include "host/experiments/forecast/forecast.h"
 #include "host/images/picture_format.h"
 #include "host/render/farm/node_memory.h"
+#include "host/render/panorama/join_frames.h"
 #include "host/render/session/session.h"
 #include "host/render/walls/walls_text.h"
 #include "host/shell/commands/shown_progress.h"
@@ -55,6 +56,7 @@ struct Planned {
   std::vector<walls::Explanation> walls;      // of by_nodes, where they are to be explained
   double slots;                               // bytes of a node's strips
   double machine = 0;                         // bytes that all processes of one machine of nodes use
+  double joining = 0;                         // and that joining a panorama's frame takes later; 0: nothing is joined
 
   // Of each number of nodes.
   void take_sooner() {
@@ -136,7 +138,10 @@ forecast::FilmCounts counts_of(const film::CompiledFilm& film, const std::vector
 
 Planned plan(PlanWords words, const NodesCode& code) {
   options::RenderOptions& options = words.options;
+  const bool asks_for_faces = options.faces;
+  const wire::PixelFormat joined = images::facts_of(options.format).pixels;
   const film::CompiledFilm film = job::load_drawn_film_of(options, warn_planner);
+  const bool joins = options.faces && !asks_for_faces;
   const wire::PackedFilm view = film.view();
   experiments::Platform platform = platform_of(options, code);
   use_memory_of_here(options, platform);
@@ -178,6 +183,7 @@ Planned plan(PlanWords words, const NodesCode& code) {
   const farm::HostMemory& host = planned.asked().run.host_memory;
   planned.slots = host.credits * static_cast<double>(wire::slot_bytes(host.format));
   planned.machine = machine_bytes(planned, film);
+  if (joins) planned.joining = static_cast<double>(panorama::joining_bytes(view.settings().width, joined));
   return planned;
 }
 
@@ -240,6 +246,8 @@ std::string text_of(const Planned& planned) {
           (run.still_memory > 0 ? ", of which " + megabytes(run.still_memory) + " a group for still lines" : "") +
           (planned.is_host_apart() ? "\n" : ", and the host\n");
   text += "the host    " + megabytes(static_cast<double>(run.host_memory.most_bytes())) + " at most\n";
+  if (planned.joining > 0)
+    text += "joining     " + megabytes(planned.joining) + " for each frame that is joined of its faces, at the end\n";
   text += "messages    " + megabytes(run.bytes_to_nodes) + " between nodes, " + megabytes(run.bytes_to_host) +
           " to the host\n";
   text += document::formatted("counted     %zu of %zu frames\n", planned.counted, planned.frames);
@@ -288,6 +296,7 @@ std::string json_text(const Planned& planned) {
   all["frames"] = planned.frames;
   all["slots"] = std::llround(planned.slots);
   all["machine_memory"] = std::llround(planned.machine);
+  if (planned.joining > 0) all["joining_memory"] = std::llround(planned.joining);
   all["best"] = json_of(planned, planned.best());
   for (const forecast::Forecast& each : planned.by_nodes) all["by_nodes"].push_back(json_of(planned, each));
   for (std::size_t i = 0; i < planned.walls.size(); ++i) all["by_nodes"][i]["explained"] = json_of(planned.walls[i]);

@@ -13,10 +13,12 @@
 #include "host/content/document/text.h"
 #include "host/content/film/film_file.h"
 #include "host/content/film/panorama.h"
+#include "host/images/picture_format.h"
 #include "host/render/panorama/join_frames.h"
 #include "host/render/session/session.h"
 #include "host/render/sinks/restore.h"
 #include "host/shell/job/film_of.h"
+#include "topology/memory_limit.h"
 
 namespace mars::launch {
 namespace {
@@ -24,6 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kPanorama = "panorama";
+constexpr std::uint64_t kMuch = std::uint64_t{1} << 30;  // bytes, worth a line
 
 void warn(const std::string& line) { std::cerr << "mars: warning: " << line << '\n'; }
 
@@ -114,9 +117,22 @@ FilmPanorama::FilmPanorama(const options::RenderOptions& options, Display& displ
       display_(display),
       opened_(open_folder_of(options)),
       work_(options.folder, document::WorkFolder::Use::shared) {
+  check_memory();
   const auto left = static_cast<std::uint32_t>(opened_.frames.size());
   if (left < opened_.asked || !opened_.changed.empty())
     display_.print(resumed_text({opened_.asked - left, opened_.asked, opened_.changed}));
+}
+
+// Before the faces are drawn, which may take hours.
+void FilmPanorama::check_memory() const {
+  const std::uint64_t bytes = panorama::joining_bytes(film::face_side(opened_.film.view().settings().width),
+                                                      images::facts_of(options_.format).pixels);
+  const auto gigabytes = [](std::uint64_t some) { return document::formatted("%.1f GB", double(some) / 1e9); };
+  const std::string needed = "joining each frame of its faces takes " + gigabytes(bytes) + " of memory";
+  if (const std::uint64_t here = topology::usable_memory(); !opened_.frames.empty() && bytes > here)
+    throw Failure(needed + ", where there are " + gigabytes(here), options_.film,
+                  "render a smaller panorama (--size), or join it on a machine with more memory");
+  if (!opened_.frames.empty() && bytes >= kMuch) display_.print(needed);
 }
 
 // Of the film as the folder keeps it, which the other options have made.

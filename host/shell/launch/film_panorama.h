@@ -37,6 +37,8 @@ class FilmPanorama {
   void join();
 
  private:
+  void check_memory() const;
+
   const options::RenderOptions& options_;
   Display& display_;
   resume::Opened opened_;
