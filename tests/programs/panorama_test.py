@@ -5,8 +5,9 @@ import json
 import shutil
 import signal
 import subprocess
+import unittest
 
-from harness import PROGRAMS, SECONDS, ENVIRONMENT, ProgramTest, main, needs, wait_until
+from harness import PROGRAMS, SANITIZED, SECONDS, ENVIRONMENT, ProgramTest, main, needs, wait_until
 from png_reader import png_rows
 
 THREADS = ["--backend", "threads", "-q"]
@@ -160,6 +161,20 @@ class Panoramas(ProgramTest):
         plain = self.write("plain.json", plain)
         self.fail_clearly(1, "render", plain, "-o", "b", "--faces", *THREADS, says="is no panorama, so it has no faces")
         self.assertIn("mars render joins", self.run_program("mars-threads", film, "-o", "b", "--nodes", 1).stderr)
+
+    @unittest.skipIf(SANITIZED, "sanitizers have memory of their own")
+    def test_what_joining_takes_is_forecast_and_refused_before_faces_are_drawn(self):
+        film = self.write("film.json", a_film(frames=1))
+        planned = [json.loads(self.succeed("mars", "plan", film, "--nodes", 1, "--size", size, "--json", *words))
+                   for size, *words in [["512x256"], ["1024x512"], ["512x256", "--faces"]]]
+        small, large = (plan["joining_memory"] for plan in planned[:2])
+        self.assertAlmostEqual(large / small, 4, delta=0.1)
+        self.assertNotIn("joining_memory", planned[2])
+        done = self.run_program("prlimit", f"--as={2 << 30}", PROGRAMS / "mars", "render", film, "--size", "16384x8192",
+                                "-o", "out", *THREADS)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"joining each frame of its faces takes 3\.\d GB of memory, where there are 2\.1 GB")
+        self.assertEqual(self.files("out"), {})
 
     @needs("ffmpeg", "ffprobe")
     def test_a_video_alone(self):

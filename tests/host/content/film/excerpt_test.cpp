@@ -22,8 +22,8 @@ using Frames = std::vector<std::uint32_t>;
 constexpr std::uint32_t kFrames = 400;
 
 // Joints that move now and then, a material and a camera that change, and exposure, which cuts intervals.
-const std::string kLong = R"("frames": 400, "color": "linear")";
-const std::string kActors = R"({"name": "x", "model": "arm", "keys": [
+const std::string kFourHundred = R"("frames": 400, "color": "linear")";
+const std::string kArms = R"({"name": "x", "model": "arm", "keys": [
     {"frame": 0, "place": [0, 0, 0], "pose": {"b": [0, 0, 0]}}, {"frame": 90, "pose": {"b": [0, 90, 0]}},
     {"frame": 200, "place": [1, 2, 0]}, {"frame": 399, "place": [5, 0, 1], "pose": {"b": [0, 300, 0]}}]},
   {"name": "y", "model": "arm", "place": [0, 3, 0]})";
@@ -55,7 +55,7 @@ void expect_as_whole(const CompiledFilm& film, const Frames& frames) {
 
 TEST(Excerpt, ShowsTheSameFrames) {
   for (const CompiledFilm& film :
-       {long_film(arm_film(kActors, kLong)), compiled(sleeve_film(R"({"name": "x", "model": "arm", "keys": [
+       {long_film(arm_film(kArms, kFourHundred)), compiled(sleeve_film(R"({"name": "x", "model": "arm", "keys": [
         {"frame": 0, "pose": {"fore": [0, 0, 0]}}, {"frame": 399, "pose": {"fore": [0, -90, 0]}}]})",
                                                                   R"("frames": 400)"))})
     for (const Frames& frames : {Frames{0}, Frames{7}, Frames{50, 51, 130, 131}, Frames{90, 200}, Frames{kFrames - 1}})
@@ -63,7 +63,7 @@ TEST(Excerpt, ShowsTheSameFrames) {
 }
 
 TEST(Excerpt, IsMadeWhereItIsMuchSmaller) {
-  const CompiledFilm film = long_film(arm_film(kActors, kLong));
+  const CompiledFilm film = long_film(arm_film(kArms, kFourHundred));
   Frames all(kFrames);
   std::iota(all.begin(), all.end(), 0u);
   EXPECT_FALSE(excerpt_of(film, all));
