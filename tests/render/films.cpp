@@ -370,6 +370,8 @@ modeler::Shape patch_tube(std::uint32_t rows, std::uint32_t bones) {
   return {"tube", modeler::patches_of(means, points), {}, modeler::control_net(means, points, follows, kAround)};
 }
 
+constexpr std::uint32_t kFramesOfABend = 40;  // tubes repeat their motion in long films
+
 }  // namespace
 
 wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t frames, std::uint32_t interval,
@@ -381,7 +383,7 @@ wire::FilmData bending(std::uint32_t width, std::uint32_t height, std::uint32_t 
   maker.add_segment(box, clay, {placed({-8, -8, -16}, 16)});
   maker.add_segment(ball, blue, {placed({-0.6, -0.6, 0}, 1.2)});
   std::vector<double> angles;
-  for (std::uint32_t f = 0; f < frames; ++f) angles.push_back(0.1 + 0.11 * f);
+  for (std::uint32_t f = 0; f < frames; ++f) angles.push_back(0.1 + 0.11 * (f % kFramesOfABend));
   const std::uint32_t shapes[] = {maker.add_shape(modeler::cut_meshlets(tube(24, 6))),
                                   maker.add_shape(modeler::cut_meshlets(tube(60, 24)))};
   maker.add_skin(shapes[0], clay, bends({{-2.5, -1.5, 0}, 4, 6}, angles));
