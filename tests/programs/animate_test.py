@@ -73,6 +73,19 @@ class Animate(ProgramTest):
         self.assertIn("--clamp", said)
         self.assertIn("elbow.x+=30", self.refused("pose", "robot", "elbow.y=30", "--local", "--frame", 24))
 
+    def test_scripts_turn_about_own_axes_as_the_command_does(self):
+        settings = ["shoulder.x+=80", "shoulder.z-=70", "sh*.x-=60"]
+        for setting in settings:
+            self.animate("pose", "robot", setting, "--local", "--frame", 24)
+        by_command = self.actor()["keys"]
+        self.write("film.json", film())
+        self.write("arm.script", "".join(f"at 24 robot pose {setting} local\n" for setting in settings))
+        self.assertEqual(self.animate("script", "arm.script").returncode, 0)
+        self.assertEqual(self.actor()["keys"], by_command)
+        self.write("arm.script", "at 24 robot pose shoulder=0,0,40\nthen robot pose shoulder.x+=150 local\n")
+        said = self.refused("script", "arm.script")
+        self.assertRegex(said, "arm.script:2: .* turned 150 degrees about its own x, turns ")
+
     def test_relative_turns_of_patterns_and_ranges(self):
         self.changed("pose", "robot", "elbow.y=90", "--frame", 24)
         self.changed("pose", "robot", "e*.y+=10", "--frame", "0-")

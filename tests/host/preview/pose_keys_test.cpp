@@ -202,6 +202,9 @@ TEST_F(Posing, ModelsKeepNoPoses) {
   EXPECT_TRUE(press(keys, "\tx").ends_with("only shown  Esc give up"));
   EXPECT_TRUE(press(keys, "\r").ends_with("a model has no keys: its poses are only shown"));
   EXPECT_TRUE(keys.under_way());
+  press(keys, "Xzzax");  // the last about its own x, where it stands at 0, 0, 10
+  const glm::dvec3 turned = animator::turned_about_own(film.source->models[0].joints[0], {0, 0, 10}, 0, 5).pose;
+  EXPECT_LT(glm::distance(keys.pose().pose_at(*film.source, {0, 0}, 10), turned), 1e-6);
   EXPECT_EQ(document::read_file(model), kModel);
 }
 

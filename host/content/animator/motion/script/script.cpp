@@ -98,15 +98,22 @@ class Player {
                                          "name an actor, or camera"));
   }
 
-  // ACTOR pose elbow.y=90 place.x+=1: keys at this frame, of the camera too.
+  // ACTOR pose elbow.y=90 place.x+=1: keys at this frame, of the camera too. With the word local, turns about own axes.
   std::uint32_t pose(ScriptLine& line, const std::string& name, std::uint32_t at) {
     line.take("pose");
     std::vector<std::string> settings;
-    while (!line.empty() && !line.next_is("as")) settings.push_back(line.take(""));
+    animator::PoseManner manner;
+    while (!line.empty() && !line.next_is("as")) {
+      if (line.next_is("--local")) line.refuse("has '--local'", "words of scripts have no dashes: write local");
+      if (line.take_if("local"))
+        manner.local = true;
+      else
+        settings.push_back(line.take(""));
+    }
     if (settings.empty()) line.refuse("does not say what is posed", "add PART=NUMBERS, as in: tom pose head.z=20");
     // What an earlier version of the script keyed here would be added to again.
     if (begun_.insert(name).second) is_actor(name) ? clear_from(name, std::max(at, 1u)) : clear_camera_after(at);
-    in_line(line, [&] { return animator::pose(film_, meaning(), name, settings, {at, at}, {}); });
+    in_line(line, [&] { return animator::pose(film_, meaning(), name, settings, {at, at}, manner); });
     played_.report.push_back(line.where() + ": " + name + " pose, frame " + std::to_string(at));
     return at;
   }

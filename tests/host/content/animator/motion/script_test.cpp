@@ -90,6 +90,23 @@ TEST(Script, TheCameraCutsFromOneFrameToTheNextAndMoves) {
   EXPECT_EQ(animator::value_at(meaning.camera.fov, 20), 30);
 }
 
+// By numbers Rx Rz, with the word local the thesis's Rz Rx.
+TEST(Script, PosesAboutOwnAxes) {
+  const auto turned = [](const std::string& second) {
+    const document::Json film = played("at 24 green pose cube.z+=90\nthen green pose " + second + " as turned");
+    return film["actors"][0]["keys"][1]["pose"]["cube"];
+  };
+  EXPECT_EQ(turned("cube.x+=90"), document::Json({90, 0, 90}));
+  EXPECT_EQ(turned("cube.x+=90 local"), document::Json({0, 90, 90}));
+  EXPECT_EQ(turned("local c*.x+=90"), document::Json({0, 90, 90}));
+  EXPECT_EQ(failure("at 24 green pose cube.x=90 local"),
+            "a.script:1: 'cube.x=90': is no turn about one axis (with --local write it like elbow.x+=30)");
+  EXPECT_EQ(failure("at 24 green pose cube.x+=90 --local"),
+            "a.script:1: this line has '--local' (words of scripts have no dashes: write local)");
+  EXPECT_TRUE(document::holds(failure("at 24 green pose local"), "does not say what is posed"));
+  EXPECT_TRUE(document::holds(failure("at 24 camera pose fov=9 local"), "is no joint that could turn"));
+}
+
 TEST(Script, SaysLineAndRemedyOfWhatIsWrong) {
   EXPECT_EQ(failure("\nfrom 3 green spin"),
             "a.script:2: this line begins with 'from', which is no cue "
