@@ -12,7 +12,7 @@ export class Edits {
   }
 
   #previews = false;
-  wanted = null;          // {actor, joint, isShown: views show the whole of it}, to be selected as soon as they are there
+  wanted = null;          // {actor, joint, more, isShown: views show the whole of it}, to be selected once they are there
   unanswered = new Unanswered();
 
   preview(step, event) {
@@ -44,9 +44,9 @@ export class Edits {
     return this.state.isFilm() ? poseStep(actor, {[joint]: pose}, this.state.project.frame, this.state.falloff) : {pose: {[joint]: pose}};
   }
 
-  select(actor, joint) {
-    this.state.select(actor, joint);
-    this.connection.send({do: "select", actor, joint});
+  select(actor, joint, more = []) {
+    this.state.select(actor, joint, null, more);
+    this.connection.send({do: "select", actor, joint, more});
   }
 
   // The camera or a light.
@@ -100,7 +100,7 @@ export class Edits {
     const wanted = this.wanted, found = wanted && (wanted.joint === null ? this.state.actor(wanted.actor) : this.state.joint(wanted.joint, wanted.actor));
     if (!found) return null;
     this.wanted = null;
-    this.select(wanted.actor, wanted.joint);
+    this.select(wanted.actor, wanted.joint, wanted.more?.filter((name) => this.state.joint(name, wanted.actor)));
     return wanted;
   }
 

@@ -27,8 +27,8 @@ export class Kept {
   }
 
   // Selects what is still there.
-  #select({actor, joint, thing}) {
-    if (actor !== null) this.edits.wanted = {actor, joint};
+  #select({actor, joint, thing, more}) {
+    if (actor !== null) this.edits.wanted = {actor, joint, more};
     else if (thing === "camera" || this.state.project.lights?.some((light) => light.thing === thing)) this.edits.selectThing(thing);
   }
 }

@@ -116,7 +116,7 @@ state.on("project", () => {
 
 connection.on("project", (project) => state.setProject(edits.unanswered.over(project)));
 connection.on("poses", (poses) => state.setPoses(poses));
-connection.on("selected", ({actor, joint, thing}) => state.select(actor ?? null, joint ?? null, thing ?? null));
+connection.on("selected", ({actor = null, joint = null, thing = null, more = []}) => state.select(actor, joint, thing, more));
 connection.on("state", (message) => {
   state.renderer = message;
   state.tell("renderer");
@@ -137,9 +137,9 @@ connection.on("connected", () => {
   status.showRenderer();
   notices.banner("connection", "");
   state.set("pins", []);
-  const {actor, joint, thing} = state.selected;
+  const {actor, joint, thing, more} = state.selected;
   if (thing !== null) connection.send({do: "select", thing});
-  else if (actor !== null) connection.send({do: "select", actor, joint});
+  else if (actor !== null) connection.send({do: "select", actor, joint, more});
 });
 connection.on("gone", ({failures, strange}) => {
   status.connected = false;

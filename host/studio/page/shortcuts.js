@@ -60,7 +60,7 @@ export const kShortcuts = [
   {group: "Page", keys: ["L"], name: "theme", text: "Light or dark", at: "page"},
   {group: "Page", keys: ["?", "F1"], name: "help", text: "This sheet", at: "page"},
 
-  {group: "Tree of joints", keys: ["ArrowUp", "ArrowDown"], text: "Joint before, next joint", at: "tree"},
+  {group: "Tree of joints", keys: ["ArrowUp", "ArrowDown"], text: "Joint before, next joint; with Shift also this one", at: "tree"},
   {group: "Tree of joints", keys: ["ArrowRight", "ArrowLeft"], text: "Open or go in, close or go out", at: "tree"},
   {group: "Tree of joints", keys: ["Home", "End"], text: "First joint, last joint", at: "tree"},
   {group: "Tree of joints", keys: ["/"], name: "find", text: "Find by the first letters", at: "page"},
@@ -79,6 +79,8 @@ export const kHands = [
   {group: "Mouse in a view", keys: ["Wheel", "Pinch"], text: "Zoom at the mouse, between the fingers"},
   {group: "Mouse in a view", keys: ["Double click"], text: "On a view's title: maximise it, and back. On a model's joint in the tree: rename it"},
   {group: "Mouse in a view", keys: ["Drag"], text: "On the letter before a number: change it"},
+
+  {group: "Mouse in the tree", keys: ["Click", "Shift+Click"], text: "Select a joint; also this one, which rings then turn, too"},
 
   {group: "Mouse in the timeline", keys: ["Click", "Shift+Click"], text: "Select a key, a row; also this one", film: true},
   {group: "Mouse in the timeline", keys: ["Drag"], text: "On a key: move what is selected. On empty space: select in a box", film: true},

@@ -9,7 +9,8 @@ export const kRingAxes = [["numbers", "The joint's three numbers, within their l
 export class State {
   #listeners = new Map();
   project = null;
-  selected = {actor: null, joint: null, thing: null};  // thing: the camera or a light, instead of the others
+  // thing: the camera or a light, instead of the others; more: joints beside `joint`, which rings turn, too
+  selected = {actor: null, joint: null, thing: null, more: []};
   tool = "turn";
   axes = kRingAxes.find(([axes]) => axes === localStorage.getItem("axes"))?.[0] ?? "numbers";  // of rings; kept
   activeView = 0;
@@ -32,8 +33,11 @@ export class State {
 
   setProject(project) {
     this.project = project;
-    const {actor, joint} = this.selected;
-    if (joint !== null && !this.joint(joint, actor)) this.selected = {actor: this.actor(actor) ? actor : null, joint: null, thing: null};
+    const {actor, joint, more} = this.selected;
+    if (joint !== null && !this.joint(joint, actor))
+      this.selected = {actor: this.actor(actor) ? actor : null, joint: null, thing: null, more: []};
+    else
+      this.selected.more = more.filter((name) => this.joint(name, actor));
     this.tell("project");
   }
 
@@ -52,9 +56,10 @@ export class State {
     this.tell("poses");
   }
 
-  select(actor, joint, thing = null) {
-    if (this.selected.actor === actor && this.selected.joint === joint && this.selected.thing === thing) return;
-    this.selected = {actor, joint, thing};
+  select(actor, joint, thing = null, more = []) {
+    const wanted = {actor, joint, thing, more};
+    if (JSON.stringify(wanted) === JSON.stringify(this.selected)) return;
+    this.selected = wanted;
     this.tell("selected");
   }
 

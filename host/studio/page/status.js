@@ -31,9 +31,10 @@ export class Status {
   }
 
   #selected() {
-    const {actor, joint} = this.state.selected;
+    const {actor, joint, more} = this.state.selected;
     const names = this.state.isFilm() ? [actor, joint] : [joint];
-    this.selection.textContent = names.filter((name) => name !== null).join(" \u203a ") || "Nothing selected";
+    const first = names.filter((name) => name !== null).join(" \u203a ") || "Nothing selected";
+    this.selection.textContent = [first, ...more].join(", ");
   }
 
   #measured() {

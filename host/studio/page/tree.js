@@ -19,7 +19,8 @@ export class Tree {
     this.id = newId("tree");
     this.title = element("h2", {}, "Joints");
     this.count = element("span", {class: "count"});
-    this.root = element("div", {role: "tree", tabindex: 0, "aria-label": "Joints", "data-key": "tree"});
+    this.root = element("div", {role: "tree", tabindex: 0, "aria-label": "Joints", "aria-multiselectable": "true",
+                                "data-key": "tree"});
     const add = element("button", {class: "quiet icon", "aria-label": "Add a joint", title: `Add a joint (${keysOf("addJoint")})`,
                                    onclick: () => edits.addJoint()}, icon("add"));
     this.find = element("input", {type: "text", class: "find", "aria-label": "Find by the first letters", placeholder: `Find (${keysOf("find")})`,
@@ -61,6 +62,8 @@ export class Tree {
 
   #isSelected({actor, joint}) { return actor === this.state.selected.actor && joint === this.state.selected.joint; }
 
+  #isAlso({actor, joint}) { return actor === this.state.selected.actor && this.state.selected.more.includes(joint); }
+
   // ---- entries: {key, actor, joint (null: the actor), name, level, open (undefined: has none below), keyed, at, of}
 
   #show() {
@@ -101,7 +104,7 @@ export class Tree {
     return {...entry, key, open: hasSome ? !this.#closed.has(key) : undefined};
   }
 
-  #look(entry) { return [entry, this.#isSelected(entry), entry === this.#entries[this.#at]]; }
+  #look(entry) { return [entry, this.#isSelected(entry), this.#isAlso(entry), entry === this.#entries[this.#at]]; }
 
   #item(entry, index) {
     const {key, joint, name, level, open, keyed, at, of} = entry;
@@ -110,7 +113,7 @@ export class Tree {
     row.style.setProperty("--level", level - 1);
     return element("div", {role: "treeitem", id: `${this.id}-${index}`, class: index === this.#at && "active", "aria-level": level, "aria-posinset": at + 1, "aria-setsize": of,
                            "aria-expanded": open === undefined ? null : String(open), "aria-label": name,
-                           "aria-selected": String(this.#isSelected(entry)), "data-key": key}, row);
+                           "aria-selected": String(this.#isSelected(entry) || this.#isAlso(entry)), "data-key": key}, row);
   }
 
   // ---- hands
@@ -123,11 +126,21 @@ export class Tree {
 
   #choose(entry) { if (entry) this.edits.select(entry.actor, entry.joint); }
 
-  #click({target}) {
+  // Selects the joint beside those of the same actor that are selected. With `flips`, a joint among them leaves.
+  #add(entry, flips) {
+    const {actor, joint, more} = this.state.selected;
+    if (!entry || entry.actor !== actor || entry.joint === null || joint === null) return this.#choose(entry);
+    const others = [joint, ...more].filter((name) => name !== entry.joint);
+    if (!flips || others.length > more.length) this.edits.select(actor, entry.joint, others);
+    else if (others.length > 0) this.edits.select(actor, others[0], others.slice(1));
+  }
+
+  #click({target, shiftKey}) {
     const key = target.closest("[role=treeitem]")?.dataset.key;
     const entry = this.#entries.find((each) => each.key === key);
     if (!entry) return;
     if (target.closest(".twist") && entry.open !== undefined) this.#open(entry, !entry.open);
+    else if (shiftKey) this.#add(entry, true);
     else this.#choose(entry);
   }
 
@@ -135,9 +148,10 @@ export class Tree {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const entries = this.#entries, at = this.#at, entry = entries[at];
     if (!entry) return;
+    const goTo = (to) => event.shiftKey ? this.#add(to, false) : this.#choose(to);
     const acts = {
-      ArrowDown: () => this.#choose(entries[at + 1]),
-      ArrowUp: () => this.#choose(entries[at - 1]),
+      ArrowDown: () => goTo(entries[at + 1]),
+      ArrowUp: () => goTo(entries[at - 1]),
       Home: () => this.#choose(entries[0]),
       End: () => this.#choose(entries.at(-1)),
       ArrowRight: () => entry.open === false ? this.#open(entry, true) : entry.open && this.#choose(entries[at + 1]),

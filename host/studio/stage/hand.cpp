@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <map>
 
 #include "host/content/animator/pose/angles.h"
 #include "host/content/animator/pose/axis_turn.h"
@@ -33,7 +34,9 @@ void Hand::take(const Grip& grip, RingAxes axes) {
   grip_ = grip;
   posed_ = posed(project_, selection_).value();
   pose_ = posed_.pose;
-  axes_ = ring_axes_of(*posed_.joint, axes);
+  axes_ = axes;
+  if (grip.what == Grip::What::ring)
+    for (const std::size_t joint : selection_.more) take_along(joint);
   const animator::ActorState state = animator::state_at(project_.film(), *selection_.actor, project_.frame());
   if (grip.what == Grip::What::arrow || grip.what == Grip::What::plane) {
     const bool of_joint = project_.is_model();
@@ -55,6 +58,12 @@ void Hand::take(const Grip& grip, RingAxes axes) {
     place_ = {point[0], point[1], point[2]};
     world_ = linear_of(matrix_) * place_ + glm::dvec3(matrix_.m[0][3], matrix_.m[1][3], matrix_.m[2][3]);
   }
+}
+
+// A joint that has no ring about the axis stays.
+void Hand::take_along(std::size_t joint) {
+  const Posed posed = studio::posed(project_, {selection_.actor, joint}).value();
+  if (has_ring(*posed.joint, grip_->axis, axes_)) along_.push_back({posed.joint->name, posed, posed.pose});
 }
 
 bool Hand::take(const Hit& hit) {
@@ -93,18 +102,24 @@ const std::string& Hand::joint_name() const {
   return project_.film().model_of(*selection_.actor).joints[*selection_.joint].name;
 }
 
-// Of the joint, or of the actor as a whole.
+// Turns the joint and those along with the joint, or the actor as a whole.
 Json Hand::turn_step(const glm::dvec3& turn) const {
-  if (project_.is_model()) return posed_model({{joint_name(), turn}});
-  if (selection_.joint) return pose_step(project_, actor_name(), {joint_setting(joint_name(), turn)});
-  refuse_carried(project_, *selection_.actor);
-  return pose_step(project_, actor_name(), {"turn=" + shown_numbers(turn)});
+  if (!selection_.joint) {
+    refuse_carried(project_, *selection_.actor);
+    return pose_step(project_, actor_name(), {"turn=" + shown_numbers(turn)});
+  }
+  std::map<std::string, glm::dvec3> turns{{joint_name(), turn}};
+  for (const TurnedAlong& each : along_) turns[each.name] = each.pose;
+  if (project_.is_model()) return posed_model(turns);
+  std::vector<std::string> settings;
+  for (const auto& [joint, pose] : turns) settings.push_back(joint_setting(joint, pose));
+  return pose_step(project_, actor_name(), settings);
 }
 
 // Degrees about the ring's axis, by the mouse's way round its center; where the ring is seen from its edge, by the way
 // along it.
 double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
-  const TurnAxis axis = posed_.axis(grip_->axis, axes_);
+  const TurnAxis axis = posed_.axis(grip_->axis, ring_axes_of(*posed_.joint, axes_));
   const auto center = mouse_.screen().pixel_of(axis.center);
   if (!center) return 0;
   const glm::dvec3 to_eye = mouse_.screen().towards_eye(axis.center);
@@ -119,17 +134,22 @@ double Hand::turned_by(const glm::dvec2& before, const glm::dvec2& now) const {
 }
 
 // About another axis than a number's the turn is what the mouse asks for, held within the limits number by number.
-std::optional<Json> Hand::follow_ring() {
-  if (axes_ != RingAxes::numbers) {
-    const glm::dvec3 axis = glm::transpose(posed_.parent.turn) * posed_.axis(grip_->axis, axes_).axis;
-    const animator::Turned turned = animator::turned_about(*posed_.joint, posed_.pose, axis, wound_, pose_);
-    pose_ = animator::clamped(*posed_.joint, turned.pose);
-    return turn_step(pose_);
+glm::dvec3 Hand::wound(const Posed& posed, const glm::dvec3& near) const {
+  if (const RingAxes axes = ring_axes_of(*posed.joint, axes_); axes != RingAxes::numbers) {
+    const glm::dvec3 axis = glm::transpose(posed.parent.turn) * posed.axis(grip_->axis, axes).axis;
+    const animator::Turned turned = animator::turned_about(*posed.joint, posed.pose, axis, wound_, near);
+    return animator::clamped(*posed.joint, turned.pose);
   }
-  glm::dvec3 pose = posed_.pose;
-  const modeler::Limits& limits = posed_.joint->limits[static_cast<std::size_t>(grip_->axis)];
+  glm::dvec3 pose = posed.pose;
+  const modeler::Limits& limits = posed.joint->limits[static_cast<std::size_t>(grip_->axis)];
   pose[grip_->axis] = std::clamp(pose[grip_->axis] + wound_, limits.lower, limits.upper);
-  return turn_step(pose);
+  return pose;
+}
+
+std::optional<Json> Hand::follow_ring() {
+  pose_ = wound(posed_, pose_);
+  for (TurnedAlong& each : along_) each.pose = wound(each.posed, each.pose);
+  return turn_step(pose_);
 }
 
 std::optional<Json> Hand::follow_limb() {

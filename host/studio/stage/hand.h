@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/studio/stage/handles.h"
@@ -18,6 +19,13 @@ namespace mars::studio {
 struct Held {
   std::size_t joint;  // which turns
   glm::dvec3 place;   // in its frame
+};
+
+// A joint that a ring of another turns, too.
+struct TurnedAlong {
+  std::string name;
+  Posed posed;      // at the beginning
+  glm::dvec3 pose;  // as it was shown last
 };
 
 class Hand {
@@ -42,7 +50,9 @@ class Hand {
   std::optional<Json> follow_place();
   std::optional<Json> follow_face();
   std::optional<Json> follow_point(bool along_axis);
+  void take_along(std::size_t joint);
   Json turn_step(const glm::dvec3& turn) const;
+  glm::dvec3 wound(const Posed& posed, const glm::dvec3& near) const;
   double turned_by(const glm::dvec2& before, const glm::dvec2& now) const;
 
   const Project& project_;
@@ -51,6 +61,8 @@ class Hand {
   std::optional<Grip> grip_;
   std::optional<Held> held_;
   Posed posed_{};  // at the beginning
+  std::vector<TurnedAlong> along_;
+  // As chosen: a hinge turns by its number nevertheless.
   RingAxes axes_ = RingAxes::numbers;
   double wound_ = 0;           // degrees, of a ring
   glm::dvec3 pose_{0, 0, 0};   // as it was shown last

@@ -72,18 +72,15 @@ class HandleMaker {
     for (std::size_t joint = 0; joint < state.joints.size(); ++joint) {
       Handle handle{"joint:" + joints[joint].name, "joint", {}};
       handle.text = joints[joint].name;
-      handle.selected = selection_.joint == joint;
+      handle.selected = selection_.joint == joint || std::ranges::count(selection_.more, joint) > 0;
       add_place(std::move(handle), state.joints[joint].place);
     }
   }
 
-  // The axes of others are no axes of the joint, which may be locked.
   void add_rings(const Posed& posed, RingAxes chosen) {
-    const RingAxes axes = ring_axes_of(*posed.joint, chosen);
-    const bool of_others = axes == RingAxes::parent || axes == RingAxes::world;
     for (int number = 0; number < 3; ++number)
-      if (of_others || posed.joint->limits[static_cast<std::size_t>(number)].free())
-        add_ring(posed.axis(number, axes), number);
+      if (has_ring(*posed.joint, number, chosen))
+        add_ring(posed.axis(number, ring_axes_of(*posed.joint, chosen)), number);
   }
 
   void add_ring(const TurnAxis& axis, int number) {
@@ -201,6 +198,13 @@ wire::Matrix matrix_of_point(const modeler::Model& model, std::size_t joint, con
 
 RingAxes ring_axes_of(const modeler::Joint& joint, RingAxes chosen) {
   return joint.freedoms() < 2 ? RingAxes::numbers : chosen;
+}
+
+// The axes of others are no axes of the joint, which may be locked.
+bool has_ring(const modeler::Joint& joint, int axis, RingAxes chosen) {
+  const RingAxes axes = ring_axes_of(joint, chosen);
+  const bool of_others = axes == RingAxes::parent || axes == RingAxes::world;
+  return of_others || joint.limits[static_cast<std::size_t>(axis)].free();
 }
 
 TurnAxis Posed::axis(int number, RingAxes axes) const {

@@ -23,6 +23,8 @@ inline constexpr const char* kTools[] = {"none", "turn", "move", "box", "points"
 enum class RingAxes { numbers, joint, parent, world };
 inline constexpr const char* kRingAxes[] = {"numbers", "joint", "parent", "world"};
 RingAxes ring_axes_of(const modeler::Joint& joint, RingAxes chosen);
+// Whether the joint has a ring about the axis (0 x, 1 y, 2 z).
+bool has_ring(const modeler::Joint& joint, int axis, RingAxes chosen);
 
 // What a hand takes hold of.
 struct Grip {

@@ -1,5 +1,6 @@
 #include "host/studio/stage/page_message.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal/failure/failure.h"
@@ -47,6 +48,13 @@ std::string word_in(const Json& message, const char* key) {
   const Json& word = value_in(message, key);
   if (!word.is_string()) refuse("is no text", key, "give a text");
   return word.get<std::string>();
+}
+
+std::vector<std::string> words_in(const Json& message, const char* key) {
+  const Json list = message.value(key, Json::array());
+  const auto is_text = [](const Json& word) { return word.is_string(); };
+  if (!list.is_array() || !std::ranges::all_of(list, is_text)) refuse("is no list of texts", key, "give a list");
+  return list.get<std::vector<std::string>>();
 }
 
 bool flag_in(const Json& message, const char* key, bool otherwise) {

@@ -3,6 +3,7 @@
 
 #include <glm/vec2.hpp>
 #include <string>
+#include <vector>
 
 #include "host/studio/project/project.h"
 
@@ -13,6 +14,7 @@ double number_in(const Json& message, const char* key, double lowest, double hig
 glm::dvec2 pair_in(const Json& message, const char* key);
 glm::dvec2 pixel_in(const Json& message);  // "x" and "y"
 std::string word_in(const Json& message, const char* key);
+std::vector<std::string> words_in(const Json& message, const char* key);  // none where the key is missing
 bool flag_in(const Json& message, const char* key, bool otherwise);
 bool has_key(const Json& message, const char* modifier);  // of the keyboard, in "keys"
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 namespace mars::studio {
 
@@ -18,6 +19,7 @@ struct Selection {
   std::optional<std::size_t> actor{};
   std::optional<std::size_t> joint{};  // none: the actor as a whole
   std::optional<Mark> mark{};          // there is no actor beside it
+  std::vector<std::size_t> more{};     // joints of the actor beside `joint`, which its rings turn, too
 
   bool operator==(const Selection&) const = default;
 };

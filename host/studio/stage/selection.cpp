@@ -41,7 +41,11 @@ Selection selection_of(const Project& project, const Named& named) {
   selection.actor = actor - film.actors.begin();
   const auto& joints = film.models[actor->model].joints;
   for (std::size_t joint = 0; joint < joints.size(); ++joint)
-    if (joints[joint].name == named.joint) selection.joint = joint;
+    if (joints[joint].name == named.joint)
+      selection.joint = joint;
+    else if (std::ranges::find(named.more, joints[joint].name) != named.more.end())
+      selection.more.push_back(joint);
+  if (!selection.joint) selection.more.clear();
   return selection;
 }
 
@@ -50,8 +54,10 @@ Named names_of(const Project& project, const Selection& selection) {
   if (selection.mark) named.thing = name_of(*selection.mark);
   if (!selection.actor) return named;
   const animator::Actor& actor = project.film().actors[*selection.actor];
+  const auto& joints = project.film().models[actor.model].joints;
   named.actor = actor.name;
-  if (selection.joint) named.joint = project.film().models[actor.model].joints[*selection.joint].name;
+  if (selection.joint) named.joint = joints[*selection.joint].name;
+  for (const std::size_t joint : selection.more) named.more.push_back(joints[joint].name);
   return named;
 }
 

@@ -4,6 +4,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host/studio/stage/handles.h"
 #include "host/studio/stage/moments.h"
@@ -16,6 +17,7 @@ namespace mars::studio {
 struct Named {
   std::optional<std::string> actor{}, joint{};
   std::optional<std::string> thing{};  // "camera", "light/1"; there is no actor beside it
+  std::vector<std::string> more{};     // joints beside `joint`
 
   bool operator==(const Named&) const = default;
 };

@@ -184,12 +184,14 @@ class StageOfPages : public Stage {
       if (!message.contains(key) || message[key].is_null()) return std::nullopt;
       return word_in(message, key);
     };
-    Named named{name("actor"), name("joint"), name("thing")};
+    Named named{name("actor"), name("joint"), name("thing"), words_in(message, "more")};
     if (named.thing && (named.actor || named.joint)) refuse("is beside an actor", "thing", "select one of them");
     if (project_.is_model() && named.joint) named.actor = project_.film().actors[0].name;
     const Selection found = selection_of(project_, named);
     if (named.actor && !found.actor) refuse("is no actor", "actor", "select one that there is");
     if (named.joint && !found.joint) refuse("is no joint", "joint", "select one that there is");
+    if (found.more.size() != named.more.size())
+      refuse("names what is no joint beside the selected one", "more", "name each joint once, beside another");
     if (named.thing && !found.mark)
       refuse("is '" + *named.thing + "'", "thing", "select camera, or a light that the film has: light/1");
     select(page, std::move(named));
@@ -432,6 +434,7 @@ class StageOfPages : public Stage {
     pages_[page].selected = std::move(named);
     Json message = {{"is", "selected"}};
     put_names(project_, selected_by(page), message);
+    message["more"] = pages_[page].selected.more;
     listener_.tell(page, message);
     for (PageView& view : views_)
       if (view.page == page) send_handles(view);

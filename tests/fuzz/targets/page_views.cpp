@@ -21,7 +21,7 @@ constexpr const char* kSound = R"(
 {"do": "undo"}
 {"do": "painted", "view": 0, "picture": 1}
 {"do": "hover", "view": 0, "x": 32, "y": 24}
-{"do": "select", "actor": "pip", "joint": "head"}
+{"do": "select", "actor": "pip", "joint": "head", "more": ["left-leg"]}
 {"do": "select", "actor": null, "joint": null}
 {"do": "grab", "edit": 7, "view": 0, "x": 32, "y": 24, "button": 0, "keys": ["shift"]}
 {"do": "grab", "edit": 7, "view": 0, "x": 32, "y": 24, "button": 0, "keys": ["shift"], "falloff": 8}

@@ -319,6 +319,23 @@ class Controls(Page):
         self.assertEqual(self.find(f"#{current}").get_attribute("data-key"), "model/right-toe-sole")
         self.assertTrue(self.find(f"#{current}").is_displayed())
 
+    def test_shift_selects_further_joints(self):
+        def chosen():
+            return {each.get_attribute("data-key") for each in self.find_all("#tree [aria-selected=true]")}
+        self.select("left-shin")
+        self.click('[data-key$="/right-shin"] > .row', keys=8)
+        self.studio.wait_for("select", joint="right-shin", more=["left-shin"])
+        self.js("document.querySelector('#tree [role=tree]').focus()")
+        self.chord(Keys.SHIFT, Keys.ARROW_DOWN)
+        self.studio.wait_for("select", joint="right-foot", more=["right-shin", "left-shin"])
+        self.assertEqual(chosen(), {"model/right-foot", "model/right-shin", "model/left-shin"})
+        self.click('[data-key$="/right-foot"] > .row', keys=8)
+        self.studio.wait_for("select", joint="right-shin", more=["left-shin"])
+        self.driver.refresh()
+        self.studio.wait_for("select", count=3, joint="right-shin", more=["left-shin"])
+        self.select("head")
+        self.assertEqual(chosen(), {"model/head"})
+
     def test_letters_are_shortcuts_after_a_click_in_the_tree(self):
         self.click('[data-key$="/left-shin"] > .row > .name')
         self.studio.wait_for("select", joint="left-shin")

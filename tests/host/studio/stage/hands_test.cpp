@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "host/content/animator/pose/actor_state.h"
 #include "host/content/animator/pose/rotation.h"
@@ -69,6 +70,20 @@ struct HandScene : OnStage {
     take(R"({"do": "drag", )" + xy(at) + R"(, "keys": )" + keys + "}");
   }
   void drop() { take(R"({"do": "drop"})"); }
+  // From where no other ring crosses.
+  void turn_ring_y() {
+    const Json points = shapes("ring:y").at(0)["points"];
+    const auto at = [&](std::size_t i) { return glm::dvec2(points.at(i)[0], points.at(i)[1]); };
+    const auto handle_under = [&](std::size_t i) {
+      take(R"({"do": "hover", "view": 0, )" + xy(at(i)) + "}");
+      return last("hovered")["handle"];
+    };
+    std::size_t held = 0;
+    while (handle_under(held) != "ring:y") ++held;
+    grab(at(held));
+    for (std::size_t step = 2; step <= 6; step += 2) drag(at(held + step));
+    drop();
+  }
   animator::ActorState state() const { return animator::state_at(project.film(), 0, project.frame()); }
   // A place of the joint's frame, in the world.
   glm::dvec3 of_joint(std::size_t joint, const glm::dvec3& place) const {
@@ -300,18 +315,8 @@ TEST(Hands, RingsTurnAboutTheAxesChosen) {
     scene.tool("turn", axes);
     EXPECT_EQ(scene.shapes("label:y").at(0)["text"], "y") << "no number's angle";
     EXPECT_TRUE(scene.shapes("limit:y").empty());
-    const Json points = scene.shapes("ring:y").at(0)["points"];
-    const auto at = [&](std::size_t i) { return glm::dvec2(points.at(i)[0], points.at(i)[1]); };
-    const auto handle_under = [&](std::size_t i) {
-      scene.take(R"({"do": "hover", "view": 0, )" + xy(at(i)) + "}");
-      return scene.last("hovered")["handle"];
-    };
-    std::size_t held = 0;  // where no other ring crosses
-    while (handle_under(held) != "ring:y") ++held;
     const animator::ActorState before = scene.state();
-    scene.grab(at(held));
-    for (std::size_t step = 2; step <= 6; step += 2) scene.drag(at(held + step));
-    scene.drop();
+    scene.turn_ring_y();
     const glm::dvec3 wanted = axes == "joint"    ? before.joints[1].turn[1]
                               : axes == "parent" ? before.joints[0].turn[1]
                                                  : glm::dvec3(0, 1, 0);
@@ -320,6 +325,46 @@ TEST(Hands, RingsTurnAboutTheAxesChosen) {
     EXPECT_GT(turn.angle / modeler::kDegree, 5) << axes << ", however slanted the ring is seen";
     EXPECT_TRUE(effect_of(scene.project.commits.at(0)).contains("ball")) << "three numbers, as people can type them";
   }
+}
+
+// In a film the turns are one command, of a model a pose that is only shown.
+TEST(Hands, ARingTurnsAllSelectedJointsEachAboutItsOwnAxis) {
+  for (const bool model : {false, true}) {
+    HandScene scene(ball(), model, "free");
+    scene.eye.orbit.turn = -60;
+    scene.eye.orbit.height = 25;
+    scene.take(R"({"do": "select", "actor": "a", "joint": "ball", "more": ["base"]})");
+    EXPECT_EQ(scene.last("selected")["more"], Json::array({"base"}));
+    scene.tool("turn", "joint");
+    EXPECT_EQ(scene.shapes("joint:base").at(0)["selected"], true);
+    const animator::ActorState before = scene.state();
+    scene.turn_ring_y();
+    ASSERT_EQ(scene.project.commits.size(), 1u);
+    const auto seen_from = [](std::size_t joint, const animator::ActorState& state) {
+      return glm::transpose(modeler::orientation(animator::free_joint(), state.pose[joint]));
+    };
+    animator::Turn turns[2];
+    for (std::size_t joint = 0; joint < 2; ++joint) {
+      turns[joint] = animator::turn_between(seen_from(joint, scene.state()), seen_from(joint, before));
+      EXPECT_LT(glm::distance(turns[joint].axis, glm::dvec3(0, 1, 0)), 1e-6) << joint;
+    }
+    EXPECT_GT(turns[0].angle / modeler::kDegree, 5);
+    EXPECT_NEAR(turns[0].angle, turns[1].angle, 1e-7);
+  }
+}
+
+TEST(Hands, OfSelectedJointsThoseTurnThatCan) {
+  HandScene scene(arm());
+  scene.take(R"({"do": "select", "actor": "a", "joint": "lower", "more": ["plate", "upper"]})");
+  scene.tool("turn");
+  scene.turn_ring_y();
+  const Json effect = effect_of(scene.project.commits.at(0));
+  EXPECT_EQ(effect["upper"], effect["lower"]) << "by their numbers";
+  EXPECT_FALSE(effect.contains("plate"));
+  for (const char* more : {R"(["nobody"])", R"(["lower"])", R"([3])", "3"})
+    EXPECT_ANY_THROW(
+        scene.take(R"({"do": "select", "actor": "a", "joint": "lower", "more": )" + std::string(more) + "}"));
+  EXPECT_ANY_THROW(scene.take(R"({"do": "select", "actor": "a", "more": ["lower"]})"));
 }
 
 TEST(Hands, RingsOfHingesAreOfTheirNumber) {
