@@ -124,16 +124,4 @@ std::optional<Ending> Process::poll() { return ending(WNOHANG); }
 
 void Process::send(int signal) const { kill(leads_group_ ? -id_ : id_, signal); }
 
-void run_detached(const std::function<void()>& work) {
-  const auto leave = [&] {
-    if (const pid_t left = fork(); left != 0) return left > 0 ? 0 : errno;
-    setsid();
-    closefrom(0);
-    if (chdir("/") == 0) work();
-    return 0;
-  };
-  if (const Ending ending = Process(leave, {}).wait(); ending.code != 0)
-    throw Failure(std::strerror(ending.code), "starting a process", "");
-}
-
 }  // namespace mars::child

@@ -71,8 +71,4 @@ class Process {
   bool left_ = false;  // or waited for
 };
 
-// `work` in a copy of this process that is nobody's child, has no terminal and no open file, and goes on when this
-// process ends. Throws Failure where no process can be started.
-void run_detached(const std::function<void()>& work);
-
 }  // namespace mars::child

@@ -14,45 +14,51 @@ namespace {
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
 // What the handler knows.
-std::atomic<pid_t> relay_group{0};
+std::atomic<pid_t> relay_target{0};  // as kill() names it: a process, or less than 0 for a group; 0: none
 std::atomic<int> relay_count{0};
 std::atomic<int> relay_first{0};
 std::atomic<bool> relay_here{false};
 static_assert(std::atomic<pid_t>::is_always_lock_free);
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
-// Nothing but system calls and the atomics above.
-void relay(int signal) {
+// A process of our group is stopped and goes on with us.
+void send(pid_t target, int signal) {
+  kill(target, signal);
+  if (target < 0) kill(target, SIGCONT);
+}
+
+// Nothing but system calls and the atomics above. A process of our group has what the terminal sends.
+void relay(int signal, siginfo_t* info, void*) {
   const int error = errno;
   const bool again = relay_count++ > 0;
   if (!again) relay_first = signal;
-  if (const pid_t group = relay_group; group > 0) signal_group(group, again ? SIGKILL : signal);
+  const pid_t target = relay_target;
+  const bool is_there = target > 0 && info->si_code == SI_KERNEL;
+  if (target != 0 && (again || !is_there)) send(target, again ? SIGKILL : signal);
   alarm(static_cast<unsigned>((again ? SignalRelay::kLongestOnceMore : SignalRelay::kLongest).count()));
   errno = error;
 }
 
-void end_here(int) {
-  if (const pid_t group = relay_group; group > 0) kill(-group, SIGKILL);
+void end_here(int, siginfo_t*, void*) {
+  if (const pid_t target = relay_target; target != 0) kill(target, SIGKILL);
   _exit(1);
 }
 
-struct sigaction handled_by(void (*handler)(int)) {
+struct sigaction handled_by(void (*handler)(int, siginfo_t*, void*)) {
   struct sigaction action {};
-  action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;  // output is not cut off; the waits that must end are polls, which never restart
+  action.sa_sigaction = handler;
+  // Output is not cut off. The waits that must end are polls, which never restart.
+  action.sa_flags = SA_SIGINFO | SA_RESTART;
   for (const int signal : kSignals) sigaddset(&action.sa_mask, signal);
   return action;
 }
 
 }  // namespace
 
-void signal_group(pid_t group, int signal) {
-  kill(-group, signal);
-  kill(-group, SIGCONT);
-}
+void signal_group(pid_t group, int signal) { send(-group, signal); }
 
 SignalRelay::SignalRelay() : within_another_(relay_here.exchange(true)) {
-  check(relay_group == 0, "one child at a time");
+  check(relay_target == 0, "one child at a time");
   if (within_another_) return;
   relay_count = relay_first = 0;
   const struct sigaction ending = handled_by(end_here), relaying = handled_by(relay);
@@ -65,7 +71,7 @@ SignalRelay::SignalRelay() : within_another_(relay_here.exchange(true)) {
 }
 
 SignalRelay::~SignalRelay() {
-  relay_group = 0;
+  relay_target = 0;
   if (within_another_) return;
   for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
   relay_here = false;
@@ -74,14 +80,16 @@ SignalRelay::~SignalRelay() {
 int SignalRelay::count() const { return relay_count; }
 int SignalRelay::first() const { return relay_first; }
 
-// The group before what came, where the handler has what came before the group: so one of them sends it, also where
+void SignalRelay::relay_to(pid_t group) { relay_to_target(-group); }
+void SignalRelay::relay_to_member(pid_t process) { relay_to_target(process); }
+
+// The target before what came, where the handler has what came before the target: so one of them sends it, also where
 // the signal is handled by another thread.
-void SignalRelay::relay_to(pid_t group) {
-  relay_group = group;
-  if (const int came_before = relay_first; came_before != 0)
-    signal_group(group, relay_count > 1 ? SIGKILL : came_before);
+void SignalRelay::relay_to_target(pid_t target) {
+  relay_target = target;
+  if (const int came_before = relay_first; came_before != 0) send(target, relay_count > 1 ? SIGKILL : came_before);
 }
 
-void SignalRelay::forget_group() { relay_group = 0; }
+void SignalRelay::forget_group() { relay_target = 0; }
 
 }  // namespace mars::child

@@ -34,11 +34,15 @@ class SignalRelay {
 
   // `group`: the process group that gets the signals, also those that came before this call: several as one SIGKILL.
   void relay_to(pid_t group);
+  // The same for a child of our own group, which has from the terminal what the terminal sends.
+  void relay_to_member(pid_t process);
 
-  // The group is gone: signals go nowhere from now on.
+  // The group or process is gone: signals go nowhere from now on.
   void forget_group();
 
  private:
+  void relay_to_target(pid_t target);
+
   bool within_another_;
   std::array<struct sigaction, 3> before_{};
 };

@@ -135,8 +135,8 @@ class LocalJobs(SideBySide, ProgramTest):
         if not MPICH:
             self.assertEqual([path.parent for path in named], [SHARED, self.temporary])
             self.assertTrue(all(re.fullmatch(re.escape(NAMED) + ".{6}", path.name) for path in named), named)
-        wait_until(lambda: not any(path.exists() for path in named), SECONDS, "its folders stay")
-        wait_until(lambda: not self.processes(), SECONDS, "who removed them stays")
+        self.assertFalse([path for path in named if path.exists()], "its folders stay")
+        wait_until(lambda: not self.processes(), SECONDS, "its processes stay")
         done = self.run_program("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, "--", ":")
         self.assertClear(done.stderr, "mpirun takes : for the end of a program's arguments")
 

@@ -1,11 +1,14 @@
 """C programs of NX as a person starts them: by mars-nx run over processes and over MPI, by a line of mpirun's, alone; and
 how they end, in order and otherwise. Each has a main function that knows nothing of jobs."""
 
+import fcntl
 import os
 import pathlib
+import pty
 import signal
 import subprocess
 import tempfile
+import termios
 import time
 import unittest
 
@@ -334,6 +337,20 @@ class Starts(NxRun):
             self.assertEqual(self.well("--nodes", 2, "./host", "./node", "read", "to-host", over=over, input="a line\n"), "read a line\n")
         self.assertEqual(set(self.well("--nodes", 2, "./node", "--", "read", input="a line\n").split("read ")), {"", "a line\n"} )
 
+    @needs_mpi
+    def test_input_of_a_terminal(self):
+        """It goes to mpirun, which is in the terminal's process group."""
+        ours, theirs = pty.openpty()
+        words = [MARS_NX, "run", "--over", "mpi", "--nodes", "2", "./host", "./node", "read", "to-host"]
+        process = subprocess.Popen(words, stdin=theirs, stdout=subprocess.PIPE, env=ENVIRONMENT, cwd=self.folder,
+                                   start_new_session=True, preexec_fn=lambda: fcntl.ioctl(0, termios.TIOCSCTTY, 0))
+        self.addCleanup(self.end, process)
+        os.write(ours, b"a line\n")
+        self.assertEqual(process.stdout.readline(), b"read a line\n")
+        self.assertEqual(process.wait(SECONDS), 0)
+        os.close(ours)
+        os.close(theirs)
+
     def test_programs_within_scripts(self):
         script = self.write("script", "#!/bin/sh\n./node\n")
         script.chmod(0o755)
@@ -433,6 +450,8 @@ class Ends(NxRun):
         done = self.run_nx("--over", "mpi", "--nodes", 2, "./unreadable")
         self.assertClear(done.stderr, "unreadable: cannot be started on machine")
         self.assertNotEqual(done.returncode, 0)
+        run = '"$0" run --over mpi --nodes 2 ./unreadable 2>log; cat log'
+        self.assertIn("unreadable: cannot be started on machine", self.run_program("sh", "-c", run, MARS_NX).stdout)
         done = self.run_nx("--over", "mpi", "--nodes", 2, "./node", "--", "fail")
         self.assertClear(done.stderr, "node 0, csend: there is no node 99")
 

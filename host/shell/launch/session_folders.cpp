@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "host/child/environment.h"
-#include "host/child/process.h"
 #include "host/content/document/text.h"
 
 namespace mars::launch {
@@ -146,18 +145,6 @@ std::optional<SessionFolders::Folder> SessionFolders::make_in(const fs::path& ba
     rmdir(path.c_str());
   }
   return std::nullopt;
-}
-
-// Its locks are closed with all it had open, or it would wait for itself.
-void SessionFolders::leave_to_another() const {
-  if (folders_.empty()) return;
-  child::run_detached([this] {
-    for (const Folder& folder : folders_) {
-      const int ended = open_folder(folder.path(), 0);
-      if (ended < 0 || flock(ended, LOCK_EX) != 0) continue;
-      remove_folder(folder.path());
-    }
-  });
 }
 
 }  // namespace mars::launch

@@ -30,9 +30,6 @@ class SessionFolders {
   SessionFolders(const SessionFolders&) = delete;
   SessionFolders& operator=(const SessionFolders&) = delete;
 
-  // For a process that becomes mpirun: another one removes them when mpirun has ended.
-  void leave_to_another() const;
-
  private:
   // Locked by us, and removed at its end.
   class Folder {

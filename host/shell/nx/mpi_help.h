@@ -1,31 +1,19 @@
-// Words that Open MPI's mpirun adds on standard error: blocks of help between lines of dashes, which are held back for
-// the one line that a person needs, and remarks about such blocks. Lines that programs print go through, each as soon
-// as it is whole.
+// Open MPI's mpirun as a child whose words on standard error are made short: a block of help between lines of dashes
+// becomes the one line that a person needs. Everything else that mpirun and the programs write passes at once.
 #pragma once
 
 #include <string>
+#include <string_view>
+
+#include "host/child/command.h"
 
 namespace mars::nx_jobs {
 
-class MpiHelp {
- public:
-  // `has_host`: rank 0 is the host, else it is node 0.
-  explicit MpiHelp(bool has_host) : has_host_(has_host) {}
+// The text as it is shown. mpirun writes a block of help at once: only blocks that are whole in `text` are explained.
+// Blocks that are not understood stay. `has_host`: rank 0 is the host, else it is node 0.
+std::string explained(std::string_view text, bool has_host);
 
-  // The part of the text that is to be shown once this line, without its end, has come.
-  std::string take(const std::string& line);
-  // The rest, when nothing more comes: what happened, in a line; "" where the exit code says so, or the programs did.
-  // Help that is not understood comes as mpirun wrote it.
-  std::string finish() const;
-
- private:
-  bool has_host_;
-  bool is_within_ = false;
-  std::string block_;  // that has begun
-  std::string help_;   // all that was held back
-};
-
-// From now on, this process' standard error, and that of what it becomes, goes through MpiHelp to where it went before.
-void explain_mpi_help(bool has_host);
+// The exit code of mpirun; 128 and the signal if one ended it.
+int run_mpirun(const child::Command& command, bool has_host);
 
 }  // namespace mars::nx_jobs

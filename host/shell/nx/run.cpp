@@ -7,7 +7,6 @@
 #include "hal/failure/failure.h"
 #include "hal/messages/settings.h"
 #include "host/child/environment.h"
-#include "host/child/exec.h"
 #include "host/child/programs.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/session_folders.h"
@@ -82,8 +81,7 @@ child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::u
   return command;
 }
 
-// Becomes mpirun: its output, its end and the signals it is sent are its own, but for its words on standard error.
-[[noreturn]] void run_mpi(const NxRun& job, const NxPrograms& programs) {
+int run_mpi(const NxRun& job, const NxPrograms& programs) {
   check_mpi_can_start(job, programs);
   std::uint32_t nodes = 0;
   child::Command command = mpi_start_of(job, programs, nodes);
@@ -96,10 +94,8 @@ child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::u
     command.words.emplace_back(":");
   }
   add(nodes, programs.node);
-  if (command.open_mpi != child::OpenMpi::none) explain_mpi_help(!programs.host.empty());  // before files are locked
   const launch::SessionFolders folders(command);
-  folders.leave_to_another();
-  child::become(command);
+  return run_mpirun(command, !programs.host.empty());
 }
 
 bool over_mpi(const NxRun& job) {
@@ -125,7 +121,7 @@ void check_nodes(int nodes, const topology::Machine& machine) {
 int run_nx(NxRun job, const RunProcesses& run_processes) {
   const NxPrograms programs = programs_of(job);
   const messages::Settings settings = messages::read_settings();
-  if (over_mpi(job)) run_mpi(job, programs);
+  if (over_mpi(job)) return run_mpi(job, programs);
   const topology::Machine machine = topology::Machine::here();
   if (job.nodes == 0) job.nodes = machine.processors();
   check_nodes(job.nodes, machine);

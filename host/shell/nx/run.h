@@ -31,8 +31,7 @@ struct NxPrograms {
 // code. The program that links the transport gives it.
 using RunProcesses = std::function<int(const NxRun& job, const NxPrograms& programs, std::uint64_t limit)>;
 
-// Their highest exit code, as of a shell: 128 and the signal for one that died of it. Over MPI this process becomes
-// mpirun.
+// Their highest exit code, as of a shell: 128 and the signal for one that died of it. Over MPI it is mpirun's.
 int run_nx(NxRun job, const RunProcesses& run_processes);
 
 }  // namespace mars::nx_jobs

@@ -107,6 +107,14 @@ TEST_F(ChildTest, SignalsThatComeBeforeTheProgramRunsArePassedOn) {
   }
 }
 
+TEST_F(ChildTest, AProcessOfOurGroupGetsWhatIsSentToUs) {
+  SignalRelay relay;
+  Process process(Command{{}, {"/bin/sleep", "1000"}}, {.default_signals = {SIGTERM}});
+  relay.relay_to_member(process.id());
+  raise(SIGTERM);
+  EXPECT_EQ(process.wait().signal, SIGTERM);
+}
+
 Outcome run_until_a_second_signal() {
   return run("trap '' TERM; echo ready; while :; do sleep 0.05; done", [] {
     kill(getpid(), SIGTERM);

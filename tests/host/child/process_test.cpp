@@ -7,12 +7,9 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
 
 #include "host/child/descriptor.h"
-#include "tests/comes.h"
 #include "tests/host/content/document/failure_of.h"
-#include "tests/temporary_folder.h"
 
 namespace mars::child {
 namespace {
@@ -86,15 +83,6 @@ TEST(Process, MayHaveSignalsThatWeIgnore) {
   EXPECT_TRUE(Process(raised, {}).wait().well());
   EXPECT_EQ(Process(raised, {.default_signals = {SIGXFSZ}}).wait().signal, SIGXFSZ);
   std::signal(SIGXFSZ, SIG_DFL);
-}
-
-TEST(Process, DetachedOnesAreNotOurs) {
-  const test::TemporaryFolder own;
-  const std::filesystem::path folder = own / "folder";
-  ASSERT_TRUE(std::filesystem::create_directory(folder));
-  run_detached([&] { rmdir(folder.c_str()); });
-  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
-  EXPECT_TRUE(test::comes([&] { return access(folder.c_str(), F_OK) != 0; }));
 }
 
 }  // namespace

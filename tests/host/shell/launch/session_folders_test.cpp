@@ -1,16 +1,10 @@
 // Folders of jobs, as the environment wants them and as their locks say that they live.
 #include "host/shell/launch/session_folders.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <stdlib.h>
 #include <sys/file.h>
-#include <sys/prctl.h>
-#include <sys/syscall.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -20,7 +14,6 @@
 #include <string>
 
 #include "host/content/document/text.h"
-#include "tests/comes.h"
 #include "tests/temporary_folder.h"
 
 namespace mars::launch {
@@ -136,38 +129,6 @@ TEST_F(SessionFoldersTest, OfALivingJobStayAndOfAnEndedOneGo) {
   { const SessionFolders next(second); }
   EXPECT_TRUE(fs::exists(lives));
   EXPECT_FALSE(fs::exists(ended));
-}
-
-// As kernels before 5.9 and some containers do.
-void forbid_close_range() {
-  sock_filter program[] = {{BPF_LD | BPF_W | BPF_ABS, 0, 0, 0},  // the call's number
-                           {BPF_JMP | BPF_JEQ | BPF_K, 0, 1, SYS_close_range},
-                           {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | ENOSYS},
-                           {BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW}};
-  const sock_fprog filter{4, program};
-  if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 || prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) != 0) _exit(1);
-}
-
-TEST_F(SessionFoldersTest, AreRemovedByAnotherWithNothingOpen) {
-  int ends[2];
-  ASSERT_EQ(pipe(ends), 0);
-  const pid_t starter = fork();
-  if (starter == 0) {
-    forbid_close_range();
-    child::Command command = open_mpi();
-    const SessionFolders folders(command);
-    folders.leave_to_another();
-    _exit(base_is_empty() ? 1 : 0);
-  }
-  close(ends[1]);
-  int status = 0;
-  waitpid(starter, &status, 0);
-  EXPECT_EQ(status, 0);
-  EXPECT_TRUE(test::comes([this] { return base_is_empty(); }));
-  fcntl(ends[0], F_SETFL, O_NONBLOCK);
-  char none = 0;
-  EXPECT_EQ(read(ends[0], &none, 1), 0) << "it holds what it inherited";
-  close(ends[0]);
 }
 
 }  // namespace
