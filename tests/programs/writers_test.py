@@ -166,7 +166,8 @@ class Writers(SideBySide, ProgramTest):
 
     def test_what_nodes_cannot_write(self):
         path = self.write("film.json", spinning_teapot(2, [16, 9]))
-        for words, says in [(["--watch", "socket"], "use --write host"), (["--sink", "none"], "no files to write"),
+        self.fail_clearly(2, "render", path, "--sink", "none", *NODES, says="no files to write")
+        for words, says in [(["--watch", "socket"], "use --write host"),
                             (["--backend", "simulated"], "simulated nodes write no files")]:
             done = self.render(path, "out", *NODES, *words)
             self.assertNotEqual(done.returncode, 0)

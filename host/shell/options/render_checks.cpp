@@ -40,12 +40,15 @@ void refuse_name_of_file(const RenderOptions& options) {
                 video ? "videos are " + videos::endings_text() : remedy);
 }
 
-// Options of files' names, and of which files are kept, mean nothing where there are none.
-void refuse_words_of_no_files(const RenderOptions& options) {
+// Options of files' names, and of which files are kept, mean nothing where there are none. -o is refused by mars alone,
+// where a person gives it.
+void refuse_words_of_no_files(const RenderOptions& options, Program program) {
   if (options.sink == SinkKind::files) return;
+  const bool has_folder = program == Program::mars && !options.folder.empty() && !options.own_folder;
   const char* word = !options.name.empty()       ? "--name"
                      : options.first_number != 0 ? "--first-number"
                      : options.overwrite         ? "--overwrite"
+                     : has_folder                ? "-o"
                                                  : nullptr;
   if (word != nullptr)
     throw Failure(std::string(word) + " is about files, of which --sink none writes none", "",
@@ -156,7 +159,7 @@ void check_together(const RenderOptions& options, Program program) {
                   measures ? "add -o DIR, or --sink none to measure only" : "add -o DIR");
   }
   refuse_name_of_file(options);
-  refuse_words_of_no_files(options);
+  refuse_words_of_no_files(options, program);
   options.videos.empty() ? refuse_forms_of_no_video(options) : check_videos(options);
   refuse_same_outputs(options);
   if (options.backend == Backend::simulated && program == Program::studio)

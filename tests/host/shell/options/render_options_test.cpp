@@ -295,6 +295,9 @@ TEST(RenderOptions, WordsAboutFilesNeedFiles) {
     }
   const Reading reading = read(Program::mars, {"film.json", "-o", "a/shot_##.png", "--sink", "none"});
   EXPECT_TRUE(document::holds(reading.printed, "'a/shot_##.png' names files, of which --sink none writes none"));
+  const Words folder{"film.json", "-o", "out", "--sink", "none"};
+  EXPECT_TRUE(document::holds(read(Program::mars, folder).printed, "-o is about files, of which --sink none writes"));
+  EXPECT_EQ(read(Program::host, folder).code, std::nullopt);
 }
 
 TEST(RenderOptions, WhatIsWrittenHasAFileOfItsOwn) {
