@@ -111,10 +111,13 @@ class Panoramas(ProgramTest):
         work.mkdir()
         (work / "made-by-mars").touch()
         self.render(film, "all", "--frames", "2-3")
-        self.render(film, work / "faces", "--faces", "--format", "exr", "--frames", "12-23")
+        self.render(film, work / "faces", "--faces", "--format", "exr", "--frames", "12-17")
         face = sorted((work / "faces").glob("*.exr"))[3]
         face.write_bytes(face.read_bytes()[:200])
-        self.assertIn("1 damaged or missing frame of out.mars-work/faces", self.render(film, "out"))
+        printed = self.render(film, "out", "--report", "report.json")
+        self.assertIn("1 damaged or missing frame of out.mars-work/faces", printed)
+        self.assertIn("the report and the trace have nothing of what is drawn again", printed)
+        self.assertEqual(len(json.loads((self.folder / "report.json").read_text())["frames"]), 10)
         self.assertEqual(self.files("out"), self.files("whole"))
         self.assertFalse(work.exists())
 

@@ -224,6 +224,8 @@ void draw_and_use(options::RenderOptions drawn, const std::function<void(const o
     if (!remove_damaged_frames(drawn.folder, display)) throw;
   }
   drawn.overwrite = false;
+  if (options::measures(drawn)) display.print("the report and the trace have nothing of what is drawn again");
+  drawn.report = drawn.trace = "";
   draw(drawn);
   use();
 }
