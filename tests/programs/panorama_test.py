@@ -121,6 +121,22 @@ class Panoramas(ProgramTest):
         self.assertEqual(self.files("out"), self.files("whole"))
         self.assertFalse(work.exists())
 
+    def test_a_damaged_face_is_named_while_another_run_draws_faces(self):
+        film = self.write("film.json", a_film(1000, (1024, 512)))
+        work = self.folder / "out.mars-work"
+        work.mkdir()
+        (work / "made-by-mars").touch()
+        faces = ["render", film, "-o", work / "faces", "--faces", "--format", "exr", *THREADS]
+        self.succeed("mars", *faces, "--every", 1000)
+        face = sorted((work / "faces").glob("*.exr"))[3]
+        face.write_bytes(face.read_bytes()[:200])
+        words = [PROGRAMS / "mars", *faces, "--frames", "1-999,1001-1999", "--nodes", 1]
+        process = subprocess.Popen([*map(str, words)], cwd=self.folder, env=ENVIRONMENT, stderr=subprocess.PIPE)
+        self.addCleanup(self.end, process)
+        wait_until(lambda: len(list((work / "faces").glob("*.exr"))) > 6, SECONDS, "no face")
+        done = self.fail_clearly(1, "render", film, "-o", "out", "--frames", "0", *THREADS, says=face.name)
+        self.assertNotIn("another run", done.stderr)
+
     def test_faces_that_a_killed_process_left_go(self):
         """Those of the frames that are there; a folder that somebody rendered on purpose stays."""
         film = self.write("film.json", a_film())

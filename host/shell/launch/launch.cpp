@@ -204,14 +204,16 @@ void render(options::RenderOptions options, const std::filesystem::path& self, c
 }
 
 // Frames that a killed process has torn in a working folder are drawn again: nobody could repair it. False where all
-// frames there are whole.
-bool remove_damaged_frames(const std::string& folder, Display& display) {
+// frames there are whole, or none can be removed, as while another run draws into the folder.
+bool remove_damaged_frames(const std::string& folder, Display& display) try {
   const sinks::Verdict verdict = sinks::verify_folder(folder);
   if (verdict.troubles.empty()) return false;
   sinks::remove_wrong_files(folder, verdict);
   display.print(document::counted(verdict.troubles.size(), "damaged or missing frame") + " of " + folder +
                 ": drawn again");
   return true;
+} catch (const Failure&) {
+  return false;
 }
 
 // `draw` puts frames into a working folder, `use` makes something of them.
