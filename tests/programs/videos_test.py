@@ -323,6 +323,10 @@ class GoingOn(VideoTest):
             (work / "made-by-mars").touch()
             (work / "pieces" / "piece-0123.mp4").write_text("left")
             (work / "frames" / "frame-0001.png").write_text("left")
+            faces = work / "frames.mars-work" / "faces"
+            faces.mkdir(parents=True)
+            (faces.parent / "made-by-mars").touch()
+            (faces / "frame-0001.exr").write_text("left")
             self.render(film, *words, *(["--overwrite"] if words[-1] == "film.gif" else []))
             self.assertFalse(work.exists(), words)
 

@@ -112,6 +112,13 @@ void remove_left_faces(const fs::path& frames) try {
 } catch (const Failure&) {  // the frames are there: what stays, another command removes
 }
 
+void remove_all_faces(const fs::path& frames) try {
+  if (!document::has_work_folder(frames)) return;
+  const document::WorkFolder work(frames, document::WorkFolder::Use::shared);
+  sinks::remove_folder(faces_in(work.path()));
+} catch (const Failure&) {  // the videos are there
+}
+
 FilmPanorama::FilmPanorama(const options::RenderOptions& options, Display& display)
     : options_(options),
       display_(display),

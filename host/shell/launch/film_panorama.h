@@ -22,6 +22,8 @@ options::RenderOptions faces_of(options::RenderOptions options);
 // Removes faces of frames that are there, which a process that was killed has left beside this folder of frames; not
 // those of other frames, which other runs may draw.
 void remove_left_faces(const std::filesystem::path& frames);
+// Removes all faces beside a folder of frames that goes too, unless somebody draws there.
+void remove_all_faces(const std::filesystem::path& frames);
 
 class FilmPanorama {
  public:

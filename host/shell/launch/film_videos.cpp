@@ -142,7 +142,7 @@ void FilmVideos::make(const std::string& file) {
 void FilmVideos::empty_work_folders() {
   for (const auto& [place, work] : work_) {
     const fs::path frames = options::frames_in(work.path());
-    remove_left_faces(frames);
+    remove_all_faces(frames);
     if (!sinks::remove_folder(frames) && fs::exists(frames)) display_.print("the frames stay in " + frames.string());
     videos::remove_pieces(work.path());
   }
