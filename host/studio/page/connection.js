@@ -1,6 +1,8 @@
 // The page's WebSocket (docs/studio-protocol.md). It connects again by itself, with growing pauses; what listens to
 // "connected" asks for all that it needs again. A browser does not say why a WebSocket is refused: a plain request does.
 
+import {ofTab} from "./stores.js";
+
 const kFirstPause = 250, kLongestPause = 4000;  // ms
 
 // The link's token stays with this tab and leaves the address, which people copy.
@@ -8,11 +10,11 @@ function takeToken() {
   const address = new URL(location.href);
   const given = address.searchParams.get("token");
   if (given !== null) {
-    sessionStorage.setItem("token", given);
+    ofTab.set("token", given);
     address.searchParams.delete("token");
     history.replaceState(null, "", address);
   }
-  return sessionStorage.getItem("token") ?? "";
+  return given ?? ofTab.get("token") ?? "";
 }
 
 export class Connection {

@@ -4,6 +4,7 @@
 
 import {element, newId} from "./dom.js";
 import {clamped, colorOf, hexOf, read, written} from "./numbers.js";
+import {ofTab} from "./stores.js";
 
 const kSettled = 400;      // ms after the last key: a change by keys is done
 const kAllDigits = 6;
@@ -319,8 +320,8 @@ export const more = (of, ...children) => folded({kept: `more ${of}`, title: "Mor
 function folded({kept, title, heading, usually}, children) {
   const id = newId("part");
   const summary = element("summary", {id, "data-key": kept}, element(heading, {}, title));
-  const details = element("details", {class: heading === "h4" ? "part more" : "part", open: (sessionStorage.getItem(kept) ?? usually) === "open"}, summary,
+  const details = element("details", {class: heading === "h4" ? "part more" : "part", open: (ofTab.get(kept) ?? usually) === "open"}, summary,
                           element("div", {class: "body", role: "group", "aria-labelledby": id}, children));
-  details.addEventListener("toggle", () => sessionStorage.setItem(kept, details.open ? "open" : "shut"));
+  details.addEventListener("toggle", () => ofTab.set(kept, details.open ? "open" : "shut"));
   return details;
 }

@@ -2,6 +2,8 @@
 // them: "project", "poses", "selected", "tool", "axes", "view" (the active one), "shown" (by a view), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
 // "curves", "ghosts", "marks", "falloff", "pins".
 
+import {ofBrowser} from "./stores.js";
+
 // Axes about which rings turn, and how people read them.
 export const kRingAxes = [["numbers", "The joint's three numbers, within their limits"], ["joint", "The joint's own axes, as they stand"],
                           ["parent", "The axes of its parent"], ["world", "The axes of the world"]];
@@ -12,7 +14,7 @@ export class State {
   // thing: the camera or a light, instead of the others; more: joints beside `joint`, which rings turn, too
   selected = {actor: null, joint: null, thing: null, more: []};
   tool = "turn";
-  axes = kRingAxes.find(([axes]) => axes === localStorage.getItem("axes"))?.[0] ?? "numbers";  // of rings; kept
+  axes = kRingAxes.find(([axes]) => axes === ofBrowser.get("axes"))?.[0] ?? "numbers";  // of rings; kept
   activeView = 0;
   workspace = "scene";  // or "rendering"
   range = null;         // [first, last] frames that play; null: all
@@ -66,7 +68,7 @@ export class State {
   set(what, value) {
     if (this[what] === value) return;
     this[what] = value;
-    if (what === "axes") localStorage.setItem("axes", value);
+    if (what === "axes") ofBrowser.set("axes", value);
     this.tell(what === "activeView" ? "view" : what);
   }
 

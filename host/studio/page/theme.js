@@ -1,10 +1,11 @@
 // Light or dark: the system's, unless the switch says otherwise.
 
 import {setIcon} from "./icons.js";
+import {ofBrowser} from "./stores.js";
 
 const kSystem = matchMedia("(prefers-color-scheme: light)");
 
-export function currentTheme() { return localStorage.getItem("theme") ?? (kSystem.matches ? "light" : "dark"); }
+export function currentTheme() { return ofBrowser.get("theme") ?? (kSystem.matches ? "light" : "dark"); }
 
 export class Theme {
   constructor(button) {
@@ -14,7 +15,7 @@ export class Theme {
   }
 
   toggle() {
-    localStorage.setItem("theme", currentTheme() === "dark" ? "light" : "dark");
+    ofBrowser.set("theme", currentTheme() === "dark" ? "light" : "dark");
     this.#show();
   }
 

@@ -4,6 +4,7 @@ import {element} from "../dom.js";
 import {setIcon} from "../icons.js";
 import {clamped} from "../numbers.js";
 import {keysOf} from "../shortcuts.js";
+import {ofTab} from "../stores.js";
 import {Tabs} from "../tabs.js";
 import {CommandLog} from "./command_log.js";
 import {CurveData} from "./curve_data.js";
@@ -37,7 +38,7 @@ export class Timeline {
     this.keyBar = new KeyBar(this.acts, this.keys, state);
     this.#makeBody(parts);
     this.#makeBar();
-    this.setHeight(Number(sessionStorage.getItem("timeline") ?? kBefore));
+    this.setHeight(Number(ofTab.get("timeline") ?? kBefore));
     state.on("project workspace", () => this.#project());
     state.on("selected", () => this.#selected());
   }
@@ -73,12 +74,12 @@ export class Timeline {
     this.fold = element("button", {class: "quiet icon", "data-key": "timeline.fold", onclick: () => this.setOpen(this.place.hidden)});
     this.bar.append(this.tabs.bar, this.keyBar.root, this.values.root, this.log.root, this.fold);
     this.tabs.bar.addEventListener("click", ({target}) => { if (target.closest("[role=tab]")) this.setOpen(true); });
-    this.open = sessionStorage.getItem("timeline shut") !== "yes";
+    this.open = ofTab.get("timeline shut") !== "yes";
   }
 
   setOpen(open) {
     this.open = open;
-    sessionStorage.setItem("timeline shut", open ? "no" : "yes");
+    ofTab.set("timeline shut", open ? "no" : "yes");
     this.#project();
   }
 
@@ -155,7 +156,7 @@ export class Timeline {
     this.place.style.height = `${this.height}px`;
     document.body.style.setProperty("--timeline", `${this.height}px`);
     this.grip?.setAttribute("aria-valuenow", Math.round(this.height));
-    sessionStorage.setItem("timeline", this.height);
+    ofTab.set("timeline", this.height);
   }
 
   #splitter() {

@@ -67,7 +67,7 @@ class Page(unittest.TestCase):
 
     def tearDown(self):
         errors = [entry["message"] for entry in self.driver.get_log("browser")]
-        self.js("localStorage.clear(); sessionStorage.clear(); window.hand.leave()")
+        self.js("dispatchEvent(new Event('pagehide')); localStorage.clear(); sessionStorage.clear(); window.hand.leave()")
         self.studio.stop()
         self.assertEqual([error for error in errors if self.allowed not in error], [])
 
@@ -555,6 +555,44 @@ class Controls(Page):
         self.studio.wait_for("view", view=0, **{"as": "surface"})
         self.studio.wait_for("view", view=3, orbit=None)
         self.assertEqual(self.heard("select"), [])
+
+    def test_what_is_gone_is_not_selected_when_it_comes_back(self):
+        self.select("left-shin")
+        model = self.studio.project["actors"][0]
+        joints = model["joints"]
+        self.studio.project["actors"][0] = {**model, "joints": [each for each in joints if each["name"] != "left-shin"]}
+        self.studio.forget()
+        self.driver.refresh()
+        self.studio.wait_for("view", view=3)
+        self.browser.settle()
+        self.studio.project["actors"][0] = model
+        self.studio.tell({"is": "project", **self.studio.project})
+        self.assertEqual(self.heard("select"), [])
+
+    def test_what_views_show_is_kept_when_the_eye_rests(self):
+        self.js("window.kept = []; Storage.prototype.setItem = (name) => { window.kept.push(name); }")
+        for turn in range(30):
+            eye = {"center": [1, 2, 3], "turn": turn, "height": 10, "distance": 4}
+            self.studio.tell({"is": "orbit", "view": 3, "from": "free", **eye})
+        kept = lambda: self.js("return window.kept.filter((name) => name.startsWith('kept ')).length")  # noqa: E731
+        self.until(lambda: kept() > 0)
+        self.assertLess(kept(), 10)
+
+    def test_what_the_browser_keeps_may_be_damaged_or_forbidden(self):
+        name = "kept " + self.studio.project["file"]
+        for damaged in ["{", "7", '{"views": [{"from": "nowhere"}]}', '{"views": [], "selected": 7}']:
+            self.js("localStorage.setItem(...arguments)", name, damaged)
+            self.studio.forget()
+            self.driver.refresh()
+            self.studio.wait_for("view", view=0, **{"from": "front", "as": "surface"})
+        forbid = "for (const each of ['localStorage', 'sessionStorage']) Object.defineProperty(window, each, {get() { throw new Error(each); }})"
+        script = self.browser.command("Page.addScriptToEvaluateOnNewDocument", source=forbid)
+        self.studio.forget()
+        self.driver.get(self.studio.link)
+        self.studio.wait_for("view", view=3)
+        self.select("left-shin")
+        self.browser.command("Page.removeScriptToEvaluateOnNewDocument", **script)
+        self.driver.get(self.studio.link)
 
     def test_help_lists_every_shortcut(self):
         self.chord("?")
