@@ -77,6 +77,7 @@ export function numberField({name, letter = "", axis = letter, unit = "", step =
     input.select();
   });
   input.addEventListener("input", (event) => {
+    if (value === null && input.value.trim() === "") return giveUp();
     const number = read(input.value, value);
     judge(number !== null);
     settling.drop();

@@ -594,6 +594,22 @@ class Controls(Page):
         self.browser.command("Page.removeScriptToEvaluateOnNewDocument", **script)
         self.driver.get(self.studio.link)
 
+    def test_a_field_without_a_number_may_be_emptied(self):
+        """What was written before shows no more."""
+        found = self.js("""
+            return import("/fields.js").then(({numberField}) => {
+              const said = [];
+              const field = numberField({name: "none", preview: (number) => said.push(number), cancel: () => said.push("cancel")});
+              const write = (text) => {
+                field.input.value = text;
+                field.input.dispatchEvent(new Event("input"));
+                return field.input.validity.valid;
+              };
+              field.set(null);
+              return [["12", "", "x", " "].map(write), said];
+            });""")
+        self.assertEqual(found, [[True, True, False, True], [12, "cancel"]])
+
     def test_help_lists_every_shortcut(self):
         self.chord("?")
         self.until(lambda: self.js("return document.querySelector('dialog.help')?.open ?? false"))
