@@ -275,6 +275,11 @@ class StartTest(ProgramTest):
                 page.hear("project")
             self.assertEqual(studio.end(), (0, ""))
         self.assertIn("the key cannot be used", self.refused(*arguments, "cert.pem"))
+        subprocess.run(["openssl", "ec", "-in", "key.pem", "-aes256", "-passout", "pass:secret", "-out", "locked.pem"],
+                       cwd=self.folder, capture_output=True, check=True, timeout=SECONDS)
+        locked = self.refused(*arguments, "locked.pem")
+        self.assertIn("it is no PEM file without a passphrase", locked)
+        self.assertEqual(len(locked.splitlines()), 1, "nobody is asked")
         self.assertIn("none.pem: there is no such file", self.refused(*arguments, "none.pem"))
         self.assertIn("none.pem: there is no such file", self.refused("--certificate", "none.pem", "--key", "key.pem"))
         (self.folder / "text.pem").write_text("no certificate")

@@ -1,5 +1,7 @@
 #include "host/studio/web/tls.h"
 
+#include <string>
+
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/ssl/context.hpp>
 
@@ -14,6 +16,8 @@ std::unique_ptr<ssl::context> make_tls(const std::string& certificate, const std
   auto context = std::make_unique<ssl::context>(ssl::context::tls_server);
   context->set_options(ssl::context::default_workarounds | ssl::context::no_sslv2 | ssl::context::no_sslv3 |
                        ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1 | ssl::context::no_compression);
+  // Otherwise OpenSSL asks on the terminal for the passphrase of a key.
+  context->set_password_callback([](std::size_t, ssl::context::password_purpose) { return std::string(); });
   constexpr std::uintmax_t kLargestFile = 1 << 20;
   boost::system::error_code problem;  // its words are OpenSSL's
   const std::string chain = document::read_file(certificate, kLargestFile),
