@@ -201,6 +201,12 @@ std::string Command::name() const { return app_->get_name(); }
 
 Option Command::option(const std::string& name) const { return Option(*app_->get_option(name)); }
 
+std::string Command::first_given(std::initializer_list<std::string_view> names) const {
+  for (const Option& each : options())
+    if (each.given() && std::ranges::find(names, each.name()) != names.end()) return each.name();
+  return "";
+}
+
 std::vector<Option> Command::options() const {
   std::vector<Option> all;
   for (CLI::Option* option : app_->get_options())

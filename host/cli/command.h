@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -99,6 +101,8 @@ class Command {
   std::string name() const;
   Option option(const std::string& name) const;  // that it has
   bool given(const std::string& name) const { return option(name).given(); }
+  // The first of `names` that it has and that was given; "": none.
+  std::string first_given(std::initializer_list<std::string_view> names) const;
   std::vector<Option> options() const;  // and arguments, but for --help and hidden ones
   std::vector<Command> commands() const;
 

@@ -127,6 +127,13 @@ fs::path path_below(const fs::path& folder, const std::string& name) {
   return path;
 }
 
+fs::path place_of_file(const fs::path& file) {
+  const fs::path path = fs::absolute(file);
+  std::error_code error;
+  const fs::path real = fs::weakly_canonical(path, error);
+  return error ? path.lexically_normal() : real;  // writing it will fail, and say why
+}
+
 bool file_exists(const fs::path& path) {
   RecordedReads::record(path);
   std::error_code error;

@@ -30,6 +30,9 @@ std::string read_start(const std::filesystem::path& path, std::size_t bytes);
 // A file or folder that a stranger names, as seen from `folder`, links followed. Throws Failure where it is not below.
 std::filesystem::path path_below(const std::filesystem::path& folder, const std::string& name);
 
+// The same for all names of a file, which need not be there: absolute, links followed.
+std::filesystem::path place_of_file(const std::filesystem::path& file);
+
 bool file_exists(const std::filesystem::path& path);
 
 }  // namespace mars::document

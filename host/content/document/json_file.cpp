@@ -66,6 +66,13 @@ Json plain_number(double number) {
   return rounded;
 }
 
+bool flag_in(const Json& object, const std::string& key, bool otherwise) {
+  const auto found = object.find(key);
+  if (found == object.end() || found->is_null()) return otherwise;
+  if (!found->is_boolean()) throw Failure("is neither true nor false", in_quotes(key), "give one of them");
+  return found->get<bool>();
+}
+
 std::string laid_out(const Json& json) try {
   std::string text;
   lay_out(json, 0, 0, text);

@@ -19,6 +19,10 @@ Json read_json(const std::filesystem::path& path);
 // A number as a person would write it: 2, not 2.0; ten digits.
 Json plain_number(double number);
 
+// A flag of an object that a stranger wrote; `otherwise` where the key is missing or null. Throws Failure where it is
+// no flag.
+bool flag_in(const Json& object, const std::string& key, bool otherwise);
+
 // As a person would write it: a list or object that fits in 110 columns stands on one line.
 std::string laid_out(const Json& json);
 

@@ -1,6 +1,5 @@
 #include "host/shell/commands/preview_command.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -141,23 +140,16 @@ void add_screen(cli::Command command, const std::shared_ptr<PreviewWords>& words
   command.add_flag("--window", words->window, "Play in a window instead of the terminal. Example: --window");
 }
 
-// The first of `names` that was given; "": none. Not every command has all.
-std::string first_given(cli::Command command, std::initializer_list<std::string_view> names) {
-  for (const cli::Option& each : command.options())
-    if (each.given() && std::ranges::find(names, each.name()) != names.end()) return each.name();
-  return "";
-}
-
-// Refuses options that would be ignored.
+// Refuses options that would be ignored. Not every command has all.
 void check_output(cli::Command command, const PreviewWords& words) {
   const std::filesystem::path& file = words.write.file;
   if (words.window && !file.empty())
     throw Failure("-o writes a file and opens no window", "", "leave out --window, or -o");
-  if (first_given(command, {"--graphics"}) != "" && (words.window || !file.empty()))
+  if (!command.first_given({"--graphics"}).empty() && (words.window || !file.empty()))
     throw Failure("--graphics is for pictures in the terminal", "",
                   std::string("leave it out, or ") + (words.window ? "--window" : "-o"));
   const auto refuse = [&](std::initializer_list<std::string_view> names, const char* problem, const char* remedy) {
-    if (const std::string name = first_given(command, names); !name.empty())
+    if (const std::string name = command.first_given(names); !name.empty())
       throw Failure(name + problem, "", std::string(remedy) + name);
   };
   if (file.empty())

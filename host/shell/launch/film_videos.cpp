@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <system_error>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/checksum.h"
@@ -35,13 +34,6 @@ std::string bytes_text(std::uintmax_t bytes) {
                            : document::formatted("%.1f MB", static_cast<double>(bytes) / kMegabyte);
 }
 
-// The same for all names of one file in one folder.
-fs::path place_of(const std::string& file) {
-  const fs::path path = fs::absolute(file).lexically_normal();
-  std::error_code none;
-  return fs::weakly_canonical(path.parent_path(), none) / path.filename();
-}
-
 // How far apart they are, where that is the same for all; else 1.
 std::uint32_t step_of(const std::vector<std::uint32_t>& frames) {
   if (frames.size() < 2) return 1;
@@ -61,7 +53,7 @@ FilmVideos::FilmVideos(const options::RenderOptions& options, Display& display) 
   }
   // All processes enter working folders in the order of the videos' places: no two wait for one another.
   std::map<fs::path, std::string> files;
-  for (const std::string& file : options.videos) files.emplace(place_of(file), file);
+  for (const std::string& file : options.videos) files.emplace(document::place_of_file(file), file);
   for (const auto& [place, file] : files)
     work_.try_emplace(place, file, document::WorkFolder::Use::alone,
                       [&] { display_.print(videos::waiting_text(order_of(file))); });
@@ -70,7 +62,7 @@ FilmVideos::FilmVideos(const options::RenderOptions& options, Display& display) 
 videos::Order FilmVideos::order_of(const std::string& file) const {
   videos::Order order{file, options_.video_form, audio_};
   order.overwrite = options_.overwrite;
-  if (const auto work = work_.find(place_of(file)); work != work_.end()) order.work = &work->second;
+  if (const auto work = work_.find(document::place_of_file(file)); work != work_.end()) order.work = &work->second;
   return order;
 }
 

@@ -8,10 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/content/document/file.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
@@ -83,14 +83,6 @@ void refuse_forms_of_no_video(const RenderOptions& options) {
                 "", "name one, as -o film.mp4, or leave it out");
 }
 
-// The same for all names of a file, which need not be there.
-std::filesystem::path place_of(const std::string& file) {
-  const std::filesystem::path path = std::filesystem::absolute(file);
-  std::error_code error;
-  const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
-  return error ? path.lexically_normal() : real;  // writing it will fail, and say why
-}
-
 // The later of two things that are written to one file would replace the other.
 void refuse_same_outputs(const RenderOptions& options) {
   std::vector<std::string> files = options.videos;
@@ -98,7 +90,7 @@ void refuse_same_outputs(const RenderOptions& options) {
     if (!file.empty()) files.push_back(file);
   std::set<std::filesystem::path> places;
   for (const std::string& file : files) {
-    if (!places.insert(place_of(file)).second)
+    if (!places.insert(document::place_of_file(file)).second)
       throw Failure("is named for two things that are written", file, "give each a file of its own");
     for (const std::string& read : {options.hostfile, options.platform, options.view.config})
       if (!read.empty()) document::refuse_same_file(read, file);

@@ -439,11 +439,6 @@ void refuse_former_names(cli::Command app) {
   }
 }
 
-bool is_given(cli::Command app, std::string_view name) {
-  return std::ranges::any_of(app.options(),
-                             [&](const cli::Option& each) { return each.name() == name && each.given(); });
-}
-
 // What --name, or the last part of -o, says: without its ending, which agrees with the format.
 void take_name(const std::string& text, bool has_format, RenderOptions& options) {
   using images::PictureFormat;
@@ -459,7 +454,7 @@ void take_name(const std::string& text, bool has_format, RenderOptions& options)
 
 // Of options that are short for others, makes the others.
 void resolve(cli::Command app, RenderOptions& options) {
-  const bool has_format = is_given(app, "--format");
+  const bool has_format = !app.first_given({"--format"}).empty();
   options.frames = options.frames.every(std::exchange(options.every, 1));
   if (!options.name.empty()) take_name(options.name, has_format, options);
   const std::filesystem::path folder = options.folder;
@@ -500,7 +495,7 @@ void add_render_options(cli::Command app, RenderOptions& options, Program progra
     if (draws) read_outputs(options, program == Program::mars || program == Program::submit);
     resolve(app, options);
     check_pictures(options);
-    check_compression(options, is_given(app, "--compression"));
+    check_compression(options, !app.first_given({"--compression"}).empty());
     if (draws) check_together(options, program);
   });
   if (draws) refuse_former_names(app);

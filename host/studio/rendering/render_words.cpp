@@ -40,13 +40,6 @@ void refuse_unknown(const Json& options) {
                     "see docs/studio-protocol.md");
 }
 
-bool flag_in(const Json& options, const char* name) {
-  const auto found = options.find(name);
-  if (found == options.end() || found->is_null()) return false;
-  if (!found->is_boolean()) throw Failure(std::string(name) + " is neither true nor false", "", "");
-  return found->get<bool>();
-}
-
 }  // namespace
 
 fs::path frames_folder(const Json& options, const fs::path& folder) {
@@ -72,7 +65,7 @@ std::vector<std::string> render_words(const RenderingSettings& settings, const J
   if (const std::string nodes = text_in(options, "nodes", ""); !nodes.empty()) words.push_back("--nodes=" + nodes);
   if (const std::string file = text_in(options, "hostfile", ""); !file.empty())
     words.push_back("--hostfile=" + document::path_below(settings.folder, file).string());
-  if (flag_in(options, "alpha")) words.push_back("--alpha");
+  if (document::flag_in(options, "alpha", false)) words.push_back("--alpha");
   return words;
 }
 

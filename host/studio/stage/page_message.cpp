@@ -57,13 +57,6 @@ std::vector<std::string> words_in(const Json& message, const char* key) {
   return list.get<std::vector<std::string>>();
 }
 
-bool flag_in(const Json& message, const char* key, bool otherwise) {
-  const auto found = message.find(key);
-  if (found == message.end()) return otherwise;
-  if (!found->is_boolean()) refuse("is neither true nor false", key, "give one of them");
-  return found->get<bool>();
-}
-
 bool has_key(const Json& message, const char* modifier) {
   const auto found = message.find("keys");
   if (found == message.end() || !found->is_array()) return false;

@@ -15,7 +15,7 @@ glm::dvec2 pair_in(const Json& message, const char* key);
 glm::dvec2 pixel_in(const Json& message);  // "x" and "y"
 std::string word_in(const Json& message, const char* key);
 std::vector<std::string> words_in(const Json& message, const char* key);  // none where the key is missing
-bool flag_in(const Json& message, const char* key, bool otherwise);
+using document::flag_in;
 bool has_key(const Json& message, const char* modifier);  // of the keyboard, in "keys"
 
 // The place of a word among those that may stand there.

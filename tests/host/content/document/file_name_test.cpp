@@ -7,6 +7,7 @@
 
 #include "host/content/document/document.h"
 #include "host/content/document/fields.h"
+#include "host/content/document/file.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/temporary_folder.h"
 
@@ -27,6 +28,15 @@ class FileNames : public testing::Test {
 
   const test::TemporaryFolder folder_;
 };
+
+TEST_F(FileNames, OfOneFileHaveOnePlace) {
+  const std::filesystem::path file = folder_ / "a.wav", missing = folder_ / "none/../b.wav";
+  std::ofstream(file) << "sound";
+  std::filesystem::create_symlink("a.wav", folder_ / "link.wav");
+  EXPECT_EQ(place_of_file(folder_ / "link.wav"), place_of_file(file));
+  EXPECT_EQ(place_of_file(missing), place_of_file(folder_ / "b.wav"));
+  EXPECT_NE(place_of_file(missing), place_of_file(file));
+}
 
 TEST_F(FileNames, AreSeenFromTheFolderOfTheDocument) {
   std::filesystem::create_directory(folder_ / "sounds");

@@ -57,6 +57,14 @@ TEST(JsonFile, OnlyUtf8IsWritten) {
   EXPECT_TRUE(holds(failure_of(write), "a name that was given is not UTF-8"));
 }
 
+TEST(JsonFile, AFlagIsTrueFalseOrMissing) {
+  const Json object = {{"on", true}, {"off", false}, {"none", nullptr}, {"text", "yes"}};
+  EXPECT_TRUE(flag_in(object, "on", false));
+  EXPECT_FALSE(flag_in(object, "off", true));
+  for (const char* missing : {"none", "other"}) EXPECT_TRUE(flag_in(object, missing, true));
+  EXPECT_TRUE(holds(failure_of([&] { flag_in(object, "text", true); }), "'text': is neither true nor false"));
+}
+
 TEST(JsonFile, ABrokenFileIsToldWithItsLine) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "a.json";

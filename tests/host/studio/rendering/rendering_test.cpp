@@ -171,7 +171,7 @@ TEST_F(RenderingTest, RefusesOptionsThatItDoesNotHave) {
   };
   for (const char* name : {"overwrite", "Nodes", "--nodes"})
     EXPECT_TRUE(document::holds(failure_with({{name, 1}}), "is no option of renderings by pages")) << name;
-  EXPECT_TRUE(document::holds(failure_with({{"alpha", "yes"}}), "alpha is neither true nor false"));
+  EXPECT_TRUE(document::holds(failure_with({{"alpha", "yes"}}), "'alpha': is neither true nor false"));
   EXPECT_TRUE(document::holds(failure_with({{"samples", 1.5}}), "samples is no text"));
   EXPECT_TRUE(document::holds(failure_with(Json::array({"nodes"})), "a rendering's options are an object"));
   EXPECT_TRUE(fs::is_empty(folder_.path()));
