@@ -53,8 +53,8 @@ bool set_up(const ProcessSetup& setup, pid_t parent, std::vector<int>& sources) 
   return true;
 }
 
-// What the new process needs is made before the fork. Limits count from what this process has. SIGCHLD ignored, as
-// whoever started us may leave it, would keep from us how the new process ends.
+// Everything that the new process needs is made before the fork. Limits count from what this process has. SIGCHLD
+// ignored, as whoever started us may leave it, would keep from us how the new process ends.
 struct Preparation {
   explicit Preparation(const ProcessSetup& wanted) : setup(wanted), sources(wanted.streams.size()) {
     std::signal(SIGCHLD, SIG_DFL);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-// What the handler knows.
+// The handler reads and writes these alone.
 std::atomic<pid_t> relay_target{0};  // as kill() names it: a process, or less than 0 for a group; 0: none
 std::atomic<int> relay_count{0};
 std::atomic<int> relay_first{0};

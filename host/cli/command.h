@@ -32,7 +32,7 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option required() const;
-  // What helps call its value: "FILE", "X Y Z".
+  // The name of its value in helps: "FILE", "X Y Z".
   Option type(const std::string& name) const;
   // Beginnings of its words that shells complete.
   Option offers(const std::vector<std::string>& beginnings) const;
@@ -85,7 +85,7 @@ class Command {
                   const std::string& help) const;
   Option add_read(const std::string& names, const std::function<void(const std::vector<double>& numbers)>& read,
                   const std::string& help) const;
-  // Of words that stand for 0, 1, 2 ...
+  // Its words stand for 0, 1, 2 ...
   Option add_choice(const std::string& name, const std::vector<std::string>& words,
                     const std::function<void(std::size_t number)>& take, const std::string& help) const;
 
@@ -93,7 +93,7 @@ class Command {
   // After all words are read and known, once for each command: may throw UsageError, or Failure, which is one of this
   // command.
   void checks(const std::function<void()>& check) const;
-  // What it does when it was given and all words make sense.
+  // Calls `run` when the command was given and all words make sense.
   void runs(const std::function<void()>& run) const;
   // Until its program goes.
   void keeps(const std::shared_ptr<void>& typed) const { kept_->push_back(typed); }

@@ -18,7 +18,7 @@ from harness import (ENVIRONMENT, OWN_MPIRUN, PROGRAMS, PROMPT, SECONDS, SOURCES
 LIBRARY = PROGRAMS.parent / "hal/program"
 MARS_NX = PROGRAMS / "mars-nx"
 
-# What a node does is the last argument.
+# The last argument says what a node does.
 NODE = r"""
 #include <cube.h>
 #include <errno.h>

@@ -76,7 +76,7 @@ class Panoramas(ProgramTest):
         (self.folder / "out" / "frame-0002.png").write_bytes(b"torn")
         self.succeed("mars", "verify", "out", "--repair", "--backend", "threads")
         self.assertEqual(self.files("out"), whole)
-        # Of an edited film only frames that show something else are joined again.
+        # Only frames of an edited film that show something else are joined again.
         edited = a_film()
         edited["actors"][1]["keys"][3]["place"] = [-5, 0, 0]
         self.write("film.json", edited)

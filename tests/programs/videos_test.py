@@ -35,7 +35,7 @@ def a_film(frames=6, size=(64, 36), **more):
 
 @functools.cache
 def encoders():
-    """What ffmpeg says of its encoders. Each program asks, and to start ffmpeg takes longer than most of a test's work."""
+    """The encoders that ffmpeg lists. Each program asks, and to start ffmpeg takes longer than most tests do."""
     return subprocess.run(["ffmpeg", "-v", "error", "-encoders"], capture_output=True, text=True).stdout
 
 
@@ -111,7 +111,7 @@ class Rendered(VideoTest):
         self.assertTrue((self.folder / "report.json").exists(), "what is to be measured is rendered")
 
     def test_names(self):
-        """Of videos and frames: nothing in them is a pattern, an address or an option."""
+        """Names of videos and frames: nothing in them is a pattern, an address or an option."""
         film = self.write("film.json", a_film(3))
         (self.folder / "a#b?c'd").mkdir()
         for name, *words in [["b%d.mp4", "--name", "shot_##"], ["b##.mp4", "-o", "a#b?c'd/e%20.mp4", "--name", "-x_####"]]:
@@ -129,7 +129,7 @@ class Rendered(VideoTest):
         self.succeed("mars", "verify", "film.mp4")
 
     def test_short_gifs(self):
-        """Of fast films: at least one picture."""
+        """Fast films give at least one picture."""
         for rate, frames in [(120, "0"), (1000, "0-5"), (1000, "0"), (50, "0")]:
             film = self.write("film.json", a_film(6, rate=rate))
             self.render(film, "-o", "film.gif", "--frames", frames)

@@ -1,4 +1,4 @@
-"""Who composes frames and writes their files: the host, or nodes. The files are the same byte for byte, also where
+"""The host, or nodes, compose frames and write their files. The files are the same byte for byte, also where
 writers are killed, the film is edited and a run goes on with the other way."""
 
 import json

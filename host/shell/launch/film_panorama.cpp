@@ -142,7 +142,7 @@ void FilmPanorama::check_memory() const {
   if (!opened_.frames.empty() && bytes >= kMuch) display_.print(needed);
 }
 
-// Of the film as the folder keeps it, which the other options have made.
+// They name the film that the folder keeps, which the other options have made.
 options::RenderOptions FilmPanorama::faces() const {
   options::RenderOptions faces = options_;
   faces.frames = film::FrameSet(opened_.frames);

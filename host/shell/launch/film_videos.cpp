@@ -66,7 +66,7 @@ videos::Order FilmVideos::order_of(const std::string& file) const {
   return order;
 }
 
-// Of all that decides its content, but for the version of ffmpeg.
+// A checksum of all that decides its content, but for the version of ffmpeg.
 std::string FilmVideos::recipe_of(const std::string& file, const std::string& film, std::uint32_t film_frames) const {
   const videos::Form form = videos::form_of(file, options_.video_form);
   document::Checksum sum;

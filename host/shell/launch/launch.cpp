@@ -56,7 +56,7 @@ void clear_ended_runs(const std::string& folder, const std::string& ended = "") 
   while (!clears.poll() && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(kClearingLook);
 }
 
-// What jobs are started from, found once: programs are started to find it.
+// Jobs are started from these, which are found once: programs are started to find them.
 struct Starting {
   Programs programs;
   Surroundings surroundings;
@@ -147,7 +147,7 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
           [&] { return adviser.after_a_failed_start(options); }};
 }
 
-// Of all its jobs together, where there were several or the only one died after its last frame.
+// The account is of all jobs together, where there were several or the only one died after its last frame.
 std::string account_of(const Supervisor& supervisor, const std::string& folder, double seconds) {
   if (supervisor.restarts() == 0 && supervisor.last().done) return done_text(*supervisor.last().done);
   return document::counted(supervisor.frames().there(), "frame") + " in " + folder + ", " +
@@ -161,7 +161,7 @@ std::optional<std::uint32_t> frames_there(const options::RenderOptions& options)
                                     options::form_of(options), options.frames, options.overwrite, options.kept_film});
 }
 
-// What sends frames to a window runs where the first process of a job runs.
+// The host, which sends frames to a window, runs where the first process of a job runs.
 void expect_host_here(const options::RenderOptions& options, const Starting& starting) {
   const std::vector<Slots> machines = machines_of(options, starting);
   if (machines.empty() || is_here(machines.front().host)) return;
@@ -187,7 +187,7 @@ void supervise(Supervisor& supervisor, const options::RenderOptions& options) {
     throw Failure("stopped by " + std::string(strsignal(signals.first())), options.folder, way_to_go_on(options));
 }
 
-// What nodes draw of the film: frames of the folder, or faces.
+// Renders what nodes draw of the film: frames of the folder, or faces.
 void render(options::RenderOptions options, const std::filesystem::path& self, const Adviser& adviser,
             Display& display) {
   const auto started = std::chrono::steady_clock::now();

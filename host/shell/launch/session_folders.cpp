@@ -45,7 +45,7 @@ int open_folder(const fs::path& path, int more) {
   return open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | more);
 }
 
-// What ends the names of files that ranks of the folder's job share: "." user "." job ".".
+// The names of files that ranks of the folder's job share end so: "." user "." job ".".
 std::optional<std::string> segment_name(const fs::path& folder) {
   std::error_code error;
   for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
@@ -57,7 +57,7 @@ std::optional<std::string> segment_name(const fs::path& folder) {
   return std::nullopt;
 }
 
-// Of a job that has ended. Ranks that end well remove theirs.
+// The job has ended. Ranks that end well have removed their segments.
 void remove_segments(const fs::path& folder) {
   const std::optional<std::string> ours = segment_name(folder);
   std::error_code error;

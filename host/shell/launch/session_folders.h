@@ -17,8 +17,8 @@
 
 namespace mars::launch {
 
-// Of a job on several machines, whose mpirun has ended here: what it left on this machine if it was killed, its folder
-// and the memory that its ranks shared.
+// Removes what a job on several machines, whose mpirun has ended here, left on this machine if mpirun was killed: its
+// folder and the memory that its ranks shared.
 void remove_session_of(pid_t mpirun);
 
 class SessionFolders {

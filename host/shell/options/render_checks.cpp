@@ -25,7 +25,7 @@ bool ends_in(const std::filesystem::path& name, std::span<const std::string_view
   return std::ranges::find(endings, ending) != endings.end();
 }
 
-// Who names a video or a picture expects that file, and would find a folder of this name.
+// A person who names a video or a picture expects that file, and would find a folder of this name.
 void refuse_name_of_file(const RenderOptions& options) {
   constexpr auto kVideos = std::to_array<std::string_view>({".avi", ".mpg", ".mpeg", ".wmv", ".flv", ".ogv"});
   constexpr auto kPictures = std::to_array<std::string_view>(

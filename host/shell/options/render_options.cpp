@@ -143,7 +143,7 @@ Entry option(unsigned programs, const char* names, const char* type, Value Rende
           }};
 }
 
-// Of a word that names no file: one that begins with a dash would be taken for an option.
+// The word names no file: one that begins with a dash would be taken for an option.
 Arguments word_for(const char* name, const std::string& word) {
   if (word.empty()) return {};
   if (word.starts_with('-') || word == ":") return {std::string(name) + "=" + word};
@@ -241,7 +241,7 @@ Entry video_form(unsigned programs) {
           }};
 }
 
-// Who serves a studio needs none.
+// A host that serves a studio needs none.
 Entry film(unsigned programs, bool required) {
   return {programs,
           [required](cli::Command app, RenderOptions& options) {
@@ -439,7 +439,7 @@ void refuse_former_names(cli::Command app) {
   }
 }
 
-// What --name, or the last part of -o, says: without its ending, which agrees with the format.
+// Takes the name of --name, or of the last part of -o, without its ending, which agrees with the format.
 void take_name(const std::string& text, bool has_format, RenderOptions& options) {
   using images::PictureFormat;
   const std::filesystem::path name = text;
@@ -452,7 +452,7 @@ void take_name(const std::string& text, bool has_format, RenderOptions& options)
   options.name = images::frame_pattern(has_ending ? name.stem().string() : text);
 }
 
-// Of options that are short for others, makes the others.
+// Sets the options for which other options are short.
 void resolve(cli::Command app, RenderOptions& options) {
   const bool has_format = !app.first_given({"--format"}).empty();
   options.frames = options.frames.every(std::exchange(options.every, 1));

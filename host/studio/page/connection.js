@@ -32,7 +32,7 @@ export class Connection {
 
   failures = 0;
 
-  // Of a request of this page's to the studio.
+  // The address of a request of this page to the studio.
   addressOf(path) { return this.#address(path); }
 
   open() {

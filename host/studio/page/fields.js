@@ -315,7 +315,7 @@ export const line = (label, ...controls) =>
 // A part of a panel that shuts. Which are shut is kept in this tab.
 export const part = (title, ...children) => folded({kept: `part ${title}`, title, heading: "h3", usually: "open"}, children);
 
-// What is seldom needed within a part, shut at first. `of`: what it is of.
+// Controls that are seldom needed within a part, shut at first. `of`: the part.
 export const more = (of, ...children) => folded({kept: `more ${of}`, title: "More", heading: "h4", usually: "shut"}, children);
 
 function folded({kept, title, heading, usually}, children) {

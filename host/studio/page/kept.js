@@ -28,7 +28,7 @@ export class Kept {
     ofBrowser.set(`kept ${this.#file}`, JSON.stringify({views, selected}));
   }
 
-  // What is damaged, or of another version, brings back nothing.
+  // A value that is damaged, or of another version, brings back nothing.
   #bringBack() {
     const {file} = this.state.project, before = this.views.map(({shown}) => ({...shown}));
     if (file === this.#file) return;

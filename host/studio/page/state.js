@@ -1,4 +1,4 @@
-// What the page knows: the project as the studio sent it, and what is selected here. Others listen to what concerns
+// State of the page: the project as the studio sent it, and what is selected here. Others listen to what concerns
 // them: "project", "poses", "selected", "tool", "axes", "view" (the active one), "shown" (by a view), "renderer", "workspace"; of films "frame", "range", "keys", "rows",
 // "curves", "ghosts", "marks", "falloff", "pins".
 

@@ -1,4 +1,4 @@
-// What the browser keeps for the page. A browser may forbid that, or have no room: then nothing is kept.
+// The browser keeps values for the page. A browser may forbid that, or have no room: then nothing is kept.
 
 class Store {
   #open;

@@ -1,4 +1,4 @@
-// What a page's message holds, checked.
+// The values in a page's message, checked.
 #pragma once
 
 #include <glm/vec2.hpp>

@@ -155,7 +155,7 @@ TEST_F(ChildTest, WhatIsStoppedIsEnded) {
   EXPECT_EQ(outcome.ending.signal, SIGTERM) << "not the signal that comes after the grace";
 }
 
-// What ignores the signal and has ended its output is waited for no longer than other children.
+// A child that ignores the signal and has ended its output is waited for no longer than others.
 TEST_F(ChildTest, SignalsCountOnceTheOutputHasEnded) {
   const Outcome outcome = run("echo ready; exec >/dev/null 2>&1; exec sleep 1000", [] { kill(getpid(), SIGINT); });
   EXPECT_EQ(outcome.ending.signal, SIGINT);

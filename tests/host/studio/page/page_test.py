@@ -595,7 +595,7 @@ class Controls(Page):
         self.driver.get(self.studio.link)
 
     def test_a_field_without_a_number_may_be_emptied(self):
-        """What was written before shows no more."""
+        """The preview of what was written before is given up."""
         found = self.js("""
             return import("/fields.js").then(({numberField}) => {
               const said = [];

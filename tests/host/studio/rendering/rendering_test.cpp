@@ -72,7 +72,7 @@ class RenderingTest : public testing::Test {
   }
   bool is(const char* state) const { return last("rendering").value("state", "") == state; }
 
-  // What the page shows now.
+  // The page shows this now.
   void expect_shows(std::uint32_t frame) {
     const std::string number = std::to_string(frame);
     const auto file = folder_ / ("out/frame-" + std::string(4 - number.size(), '0') + number + ".png");
