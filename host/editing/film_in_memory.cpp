@@ -124,7 +124,10 @@ void FilmInMemory::change(const Change& change) {
   animator::write_version(changed);
   require_new_files_below(folder_, path_, keys::object("film"), json_, changed);
   const bool models_stay = animator::same_models(json_, changed);
-  const auto with_these_models = [&](const document::Element& root) { return animator::read_film(root, film_.models); };
+  const auto with_these_models = [&](const document::Element& root) {
+    animator::require_new_sound(root, film_);
+    return animator::read_film(root, film_.models);
+  };
   animator::Film film = models_stay ? meaning_of(changed, path_, with_these_models) : with_other_models(changed);
   if (!before_) {
     before_ = Whole{std::move(json_), std::move(film_), models_stay};
@@ -190,7 +193,10 @@ void FilmInMemory::put_back(Part& part) {
 }
 
 animator::Film FilmInMemory::with_other_models(const Json& json) const {
-  const auto read = [&](const document::Element& root) { return animator::read_film(root, path_.parent_path()); };
+  const auto read = [&](const document::Element& root) {
+    animator::require_new_sound(root, film_);
+    return animator::read_film(root, path_.parent_path());
+  };
   return meaning_of(json, path_, read);
 }
 

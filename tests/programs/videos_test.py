@@ -431,9 +431,16 @@ class GoingOn(VideoTest):
         for name, says in [("pipe.wav", "pipe.wav', which is not a regular file"), ("folder.wav", "is not a regular file"),
                            ("none.wav", "none.wav', which does not exist")]:
             film = self.write("film.json", a_film(3, audio=name))
-            for words in [["render", film, "-o", "out", *SMALL], ["render", film, "-o", "film.mp4", *SMALL],
-                          ["compile", film, "-o", "film.mars"]]:
-                self.fail_clearly(1, *words, says=says)
+            self.fail_clearly(1, "render", film, "-o", "film.mp4", *SMALL, says=says)
+            self.fail_clearly(1, "submit", film, "-o", "film.mp4", "--print", says=says)
+            checked = self.mars("animate", film, "check")
+            self.assertIn(says, checked.stdout)
+            self.assertEqual(checked.returncode, 1)
+            for words in [["render", film, "-o", f"out-{name[:4]}", *SMALL], ["compile", film, "-o", "film.mars"]]:
+                done = self.mars(*words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertIn(says, done.stderr)
+        self.assertFalse(list(self.folder.glob("film.mp4*")))
         self.fail_clearly(1, "verify", "pipe.mp4", says="pipe.mp4: is not a regular file")
         film = self.write("film.json", a_film(3))
         self.render(film, "-o", "out")

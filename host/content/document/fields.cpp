@@ -157,14 +157,18 @@ std::string read_text(const Element& element) {
   return std::string(element.text());
 }
 
+std::string file_trouble(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) return "";
+  return file_exists(path) ? "which is not a regular file" : "which does not exist";
+}
+
 std::filesystem::path read_file_name(const Element& element, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / read_text(element);
-  if (!file_exists(path))
-    element.refuse("is " + in_quotes(path.string()) + ", which does not exist",
-                   "name a file as seen from the folder of the file that names it");
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    element.refuse("is " + in_quotes(path.string()) + ", which is not a regular file", "name a file on a disk");
+  if (const std::string trouble = file_trouble(path); !trouble.empty())
+    element.refuse("is " + in_quotes(path.string()) + ", " + trouble,
+                   file_exists(path) ? "name a file on a disk"
+                                     : "name a file as seen from the folder of the file that names it");
   return path;
 }
 

@@ -17,8 +17,10 @@ animator::Film meaning_of(const fs::path& path) {
   return animator::read_film(path);
 }
 
-std::function<void(const document::Element&)> check_beside(const fs::path& path) {
-  return [folder = path.parent_path()](const document::Element& root) {
+// `before` must outlive it.
+std::function<void(const document::Element&)> check_beside(const fs::path& path, const animator::Film& before) {
+  return [folder = path.parent_path(), &before](const document::Element& root) {
+    animator::require_new_sound(root, before);
     check_camera_and_lights(animator::read_film(root, folder));
   };
 }
@@ -32,20 +34,23 @@ FilmFile open_film(const fs::path& path) {
 
 void change_film(const fs::path& path, const std::function<void(document::Json&, const animator::Film&)>& change) {
   meaning_of(path);  // refuses a file of another kind by its name
+  animator::Film before;
   document::change_json(
       path,
       [&](document::Json& json) {
-        change(json, animator::read_film(path));
+        before = animator::read_film(path);
+        change(json, before);
         animator::write_version(json);
       },
-      check_beside(path));
+      check_beside(path, before));
 }
 
 void create_film(const fs::path& path, const document::Json& film) {
   if (fs::exists(path))
     throw Failure("is there already", path.string(),
                   "choose another name, or change it with mars film FILM set and add");
-  document::write_json(path, film, check_beside(path));
+  const animator::Film none;
+  document::write_json(path, film, check_beside(path, none));
 }
 
 std::string name_beside(const fs::path& film, const std::string& file) {

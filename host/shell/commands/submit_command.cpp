@@ -23,6 +23,7 @@
 #include "host/shell/batch/remembered_jobs.h"
 #include "host/shell/batch/slurm.h"
 #include "host/shell/job/film_of.h"
+#include "host/shell/launch/film_audio.h"
 #include "host/shell/options/render_options.h"
 #include "host/videos/write_video.h"
 
@@ -108,6 +109,7 @@ void warn_submitter(const std::string& line) { std::cerr << "mars: warning: " <<
 // folder from then on, for every start of the job to take, whatever becomes of the film's files.
 film::CompiledFilm film_of(const SubmitWords& words) {
   const options::RenderOptions& render = words.render;
+  if (!render.videos.empty()) launch::audio_of_film(render.film);  // throws where the sound is missing
   const auto compile = [&] { return job::load_film_of(render, warn_submitter); };
   const resume::Wish wish{.folder = render.folder,
                           .film = render.film,

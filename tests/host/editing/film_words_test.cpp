@@ -1,10 +1,13 @@
 // `mars film` on a film in memory.
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "host/content/animator/settings/film_settings.h"
 #include "host/content/modeler/figure_library.h"
 #include "host/editing/edit_film.h"
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::editing {
 namespace {
@@ -124,6 +127,19 @@ TEST_F(FilmWords, ChangeSettings) {
   EXPECT_NE(failure({"set", "frames"}).find("KEY=VALUE"), std::string::npos);
   EXPECT_NE(failure({"set", "rate=1", "rate=2"}).find("twice"), std::string::npos);
   EXPECT_NE(failure({"new"}).find("is open already"), std::string::npos);
+}
+
+TEST_F(FilmWords, RepairAFilmWhoseSoundIsMissing) {
+  const test::TemporaryFolder folder;
+  const std::string sound = folder / "sound.wav";
+  std::ofstream(sound) << "sound";
+  json_["audio"] = "gone.wav";
+  film({"set", "frames=10"});
+  EXPECT_EQ(json_["audio"], "gone.wav");
+  film({"add", "tom", "--model", "man"});
+  EXPECT_NE(failure({"set", "audio=none.wav"}).find("none.wav', which does not exist"), std::string::npos);
+  film({"set", "audio=" + sound});
+  EXPECT_EQ(json_["audio"], sound);
 }
 
 TEST_F(FilmWords, ChangeTheCamera) {

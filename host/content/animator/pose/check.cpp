@@ -168,6 +168,14 @@ void find_late_keys(const Film& film, std::vector<std::string>& lines) {
     find_late_keys(film, "material/" + material.name, last_key(material), lines);
 }
 
+void find_missing_sound(const Film& film, std::vector<std::string>& lines) {
+  const std::string trouble = film.audio.empty() ? "" : document::file_trouble(film.audio);
+  if (trouble.empty()) return;
+  lines.push_back("audio: is " + document::in_quotes(document::printable(film.audio.string(), 1000)) + ", " + trouble +
+                  ": no video can be made (name another file: mars film " + document::shell_word(film.source) +
+                  " set audio=FILE)");
+}
+
 }  // namespace
 
 Findings check_film(const Film& film) {
@@ -186,6 +194,7 @@ Findings check_film(const Film& film) {
     find_falls(film, number, lines);
   }
   find_late_keys(film, lines);
+  find_missing_sound(film, lines);
   find_lost_shadows(film, lines);
   find_unfit_planes(film, lines);
   findings.trouble = !lines.empty();
@@ -210,9 +219,10 @@ std::vector<std::string> warnings_of(const Film& film) {
     }
     lines.push_back(film.source + ": " + words_of(film, each) + remedy_of(film, each, animate));
   }
-  std::vector<std::string> planes;
-  find_unfit_planes(film, planes);
-  for (const std::string& line : planes) lines.push_back(film.source + ": " + line);
+  std::vector<std::string> others;
+  find_missing_sound(film, others);
+  find_unfit_planes(film, others);
+  for (const std::string& line : others) lines.push_back(film.source + ": " + line);
   return lines;
 }
 

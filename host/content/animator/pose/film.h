@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
@@ -115,7 +116,8 @@ struct Film {
   Ambient ambient;
   std::optional<Fog> fog;
   Cutting cutting = Cutting::automatic;
-  std::uint32_t dice = 0;  // 0: adaptive; N: every patch N x N quads
+  std::filesystem::path audio;  // the sound of its videos, which may be missing; "": none
+  std::uint32_t dice = 0;       // 0: adaptive; N: every patch N x N quads
   CameraMotion camera;
   std::vector<LightMotion> lights;
   std::vector<MaterialMotion> materials;

@@ -335,10 +335,14 @@ void check_version(const document::Element& film) {
                     "use a newer MARS, or make the film without what is new in that version");
 }
 
+std::filesystem::path sound_of(const document::Element& audio) {
+  return std::filesystem::path(audio.document().name()).parent_path() / document::read_text(audio);
+}
+
 void read_settings(const document::Fields& fields, Film& film) {
   film.frames = document::read_count(fields.required("frames"), fields.key("frames"));
   film.rate = fields.number("rate");
-  if (const auto audio = fields.find("audio")) document::read_file_name(*audio);  // videos have it, no frame
+  if (const auto audio = fields.find("audio")) film.audio = sound_of(*audio);
   fields.number("audio_delay");
   read_colors(fields, film);
   read_size(fields.value("size"), film);
@@ -411,6 +415,11 @@ Film read_film(const document::Element& element, std::vector<modeler::Model>& mo
   return read_film_with(element, models, [&](const document::Element& named, const Film&) {
     check(named.size() == models.size(), "a film is read again with all its models");
   });
+}
+
+void require_new_sound(const document::Element& film, const Film& before) {
+  const auto audio = film.find("audio");
+  if (audio && sound_of(*audio) != before.audio) document::read_file_name(*audio);
 }
 
 std::optional<FilmPart> part_of(const Film& film, const std::string& thing) {

@@ -14,7 +14,8 @@
 
 namespace mars::animator {
 
-// Model files are found beside the film file.
+// Model files are found beside the film file. The film's sound may be missing, for no frame needs it: videos and
+// check_film() refuse it then.
 Film read_film(const std::filesystem::path& path);
 Film read_film(const document::Element& element, const std::filesystem::path& folder);
 
@@ -24,6 +25,10 @@ bool same_models(const document::Json& one, const document::Json& two);
 // A film with the same models as one read before, whose `models` are not read again: they become the
 // film's, or stay where they are if it throws.
 Film read_film(const document::Element& element, std::vector<modeler::Model>& models);
+
+// Refuses a sound that a change makes the film name, and that is no regular file. A sound that the film had `before`
+// may be missing, so that the film can be repaired.
+void require_new_sound(const document::Element& film, const Film& before);
 
 // What of a film can change without the rest: the camera, all lights, all materials, an actor.
 struct FilmPart {

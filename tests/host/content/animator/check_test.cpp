@@ -172,6 +172,20 @@ TEST(Check, WhatNobodySeesIsOneLineAndNoTrouble) {
   EXPECT_TRUE(warnings_of(film).empty());
 }
 
+TEST(Check, NamesAMissingSoundAndItsRepair) {
+  Film film = film_of(R"("limits": {"x": [0, 9]})", R"("place": [0, 0, 0])");
+  film.audio = "/nowhere/gone.wav";
+  const Findings findings = check_film(film);
+  EXPECT_TRUE(findings.trouble);
+  ASSERT_EQ(findings.lines.size(), 1u);
+  EXPECT_EQ(findings.lines[0],
+            "audio: is '/nowhere/gone.wav', which does not exist: no video can be made (name another file: mars film "
+            "f.json set audio=FILE)");
+  EXPECT_EQ(warnings_of(film), std::vector<std::string>{"f.json: " + findings.lines[0]});
+  film.audio = "/";
+  EXPECT_TRUE(document::holds(check_film(film).lines[0], "which is not a regular file"));
+}
+
 TEST(Check, TellsJumps) {
   const auto lines_of = [](const char* keys) {
     return check_film(film_of(R"("limits": {"x": [0, 9]})", "\"keys\": [" + std::string(keys) + "]")).lines;
