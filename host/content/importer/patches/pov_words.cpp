@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "host/content/document/file.h"
@@ -119,14 +121,17 @@ class PovLexer {
 
 class PovIncluder {
  public:
-  PovText read(const std::filesystem::path& path) {
-    add(path, 0);
+  explicit PovIncluder(std::filesystem::path scene) : scene_(std::move(scene)) {}
+
+  PovText read() {
+    add("", scene_, 0);
     text_.words.push_back(std::move(end_));
     return std::move(text_);
   }
 
  private:
-  void add(const std::filesystem::path& path, std::size_t depth) {
+  // `inside`: the file's folder as seen from the scene's.
+  void add(const std::filesystem::path& inside, const std::filesystem::path& path, std::size_t depth) {
     const std::string file = document::read_file(path, kLargestPatchScene);
     const std::size_t number = text_.files.size();
     text_.files.push_back(path.string());
@@ -136,22 +141,28 @@ class PovIncluder {
     std::vector<PovWord> words = PovLexer(file, path.string()).words();
     for (PovWord& word : words) word.file = number;
     for (std::size_t i = 0; i + 1 < words.size(); ++i) {
-      const auto included = words[i].is(PovKind::directive, "include") ? file_of(path, words[i + 1]) : std::nullopt;
+      const auto included =
+          words[i].is(PovKind::directive, "include") ? file_of(inside, path, words[i + 1]) : std::nullopt;
       if (included)
-        add(*included, depth + 1), ++i;
+        add(included->parent_path(), scene_.parent_path() / *included, depth + 1), ++i;
       else
         text_.words.push_back(std::move(words[i]));
     }
     end_ = std::move(words.back());
   }
 
-  static std::optional<std::filesystem::path> file_of(const std::filesystem::path& path, const PovWord& name) {
+  // As seen from the scene's folder, which it must not leave: beside the file that names it, or else in that folder.
+  std::optional<std::filesystem::path> file_of(const std::filesystem::path& inside, const std::filesystem::path& path,
+                                               const PovWord& name) const {
     std::error_code none;
     if (name.kind != PovKind::text) return std::nullopt;
-    const std::filesystem::path file = companion(path, name.text);
-    return std::filesystem::is_regular_file(file, none) ? std::optional(file) : std::nullopt;
+    if (!stays_inside(inside / name.text)) companion(path, name.text);  // which refuses it
+    for (const std::filesystem::path& file : {inside / name.text, std::filesystem::path(name.text)})
+      if (stays_inside(file) && std::filesystem::is_regular_file(companion(scene_, file.string()), none)) return file;
+    return std::nullopt;
   }
 
+  std::filesystem::path scene_;
   PovText text_;
   PovWord end_;
   std::size_t bytes_ = 0;
@@ -159,6 +170,6 @@ class PovIncluder {
 
 }  // namespace
 
-PovText pov_text(const std::filesystem::path& path) { return PovIncluder().read(path); }
+PovText pov_text(const std::filesystem::path& path) { return PovIncluder(path).read(); }
 
 }  // namespace mars::importer

@@ -29,8 +29,8 @@ struct PovText {
 };
 
 // All of a file. Files that it includes stand in the place of their names; names of files that are not there, as of
-// POV-Ray's own, stay as words. A file outside of its folder is refused (sources/companion.h). Failures are at
-// FILE:LINE.
+// POV-Ray's own, stay as words. An included file lies beside the one that includes it or beside the first; outside of
+// the first one's folder it is refused (sources/companion.h). Failures are at FILE:LINE.
 PovText pov_text(const std::filesystem::path& path);
 
 }  // namespace mars::importer

@@ -89,6 +89,23 @@ TEST_F(Patches, OfPovRayAreNotIncludedFromOutsideTheFolder) {
   EXPECT_EQ(pov("#include \"colors.inc\"\n" + pov_patch()).skipped.at("#include"), 1u) << "one of POV-Ray's own";
 }
 
+TEST_F(Patches, OfPovRayComeFromFilesThatIncludedFilesInclude) {
+  std::filesystem::create_directories(folder_ / "parts/deep");
+  write("wave.inc", "#declare Wave = " + pov_patch());
+  write("parts/other.inc", "#declare Other = " + pov_patch());
+  const auto patches = [&](const std::string& included) {
+    write("parts/deep/all.inc", "#include \"" + included + "\"\n");
+    return pov("#include \"parts/deep/all.inc\"\nobject { Wave } object { Other }").patches.size();
+  };
+  EXPECT_EQ(patches("../../wave.inc\"\n#include \"../other.inc"), 2u) << "as seen from the file that names them";
+  EXPECT_EQ(patches("wave.inc\"\n#include \"parts/other.inc"), 2u) << "as seen from the scene";
+  write("parts/deep/wave.inc", "#declare Wave = union { " + pov_patch() + pov_patch() + "}");
+  EXPECT_EQ(patches("wave.inc\"\n#include \"../other.inc"), 3u) << "rather those beside the file that names them";
+  const std::string refusal = failure_of([&] { patches("../../../wave.inc"); });
+  EXPECT_TRUE(holds(refusal, "parts/deep/all.inc: names '../../../wave.inc', which is outside of its folder"))
+      << refusal;
+}
+
 TEST_F(Patches, OfRibFollowTheirBasisAndMatrices) {
   std::string points;
   for (int i = 0; i < 16; ++i) {
