@@ -15,7 +15,11 @@ namespace fs = std::filesystem;
 bool leads_out(const fs::path& path, const fs::path& folder) {
   std::error_code error;
   const fs::path real = fs::weakly_canonical(path, error);
-  return !error && !stays_inside(real.lexically_relative(fs::weakly_canonical(folder)));
+  if (error) return false;
+  const fs::path real_folder = fs::weakly_canonical(folder, error);
+  if (error)
+    throw Failure("cannot be found: " + error.message(), folder.string(), "check its name and its permissions");
+  return !stays_inside(real.lexically_relative(real_folder));
 }
 
 }  // namespace
