@@ -62,7 +62,7 @@ struct FileItself {
     if (is_gltf(kind)) {
       GltfBytes given = gltf_bytes(path, std::move(bytes));
       bytes = std::move(given.bytes);
-      gltf = std::move(given.gltf);
+      gltf = std::move(*given.gltf);
       is_unpacked = given.unpacked;
     }
     promised = promised_by(path, kind, bytes, gltf);

@@ -74,9 +74,10 @@ std::vector<glm::dmat4> GltfScene::matrices_at(double time) const {
 }
 
 GltfScene read_gltf_scene(const std::filesystem::path& path, const std::string& animation) {
-  const auto [bytes, gltf, unpacked] = gltf_bytes(path, document::read_file(path, kLargestMeshFile));
+  const GltfBytes file = gltf_bytes(path, document::read_file(path, kLargestMeshFile));
+  const Tree& gltf = *file.gltf;
   GltfScene scene{gltf_nodes(path, gltf), {}, {}, {}};
-  scene.animations = gltf_animations(path, gltf, GltfBuffers(path, bytes, gltf), animation);
+  scene.animations = gltf_animations(path, gltf, GltfBuffers(path, file.bytes, gltf), animation);
   const Tree& lights = at(at(at(gltf, "extensions"), "KHR_lights_punctual"), "lights");
   const std::vector<bool> in_scene = nodes_in_scene(gltf, scene.nodes.parents);
   for (std::size_t node = 0; node < in_scene.size(); ++node) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <span>
@@ -113,7 +114,7 @@ class Unpacker {
         std::erase_if(gltf_[list].get_ref<Tree::array_t&>(),
                       [](const Tree& name) { return name == kMeshopt || name == kQuantization; });
     std::string bytes = glb_of(gltf_, blob_);
-    return {std::move(bytes), std::move(gltf_), true};
+    return {std::move(bytes), std::make_unique<Tree>(std::move(gltf_)), true};
   }
 
  private:
@@ -191,7 +192,7 @@ GltfBytes gltf_bytes(const std::filesystem::path& path, std::string bytes) {
   const std::set<std::size_t> accessors = packed_accessors(gltf);
   const Tree& views = at(gltf, "bufferViews");
   if (!views.is_array() || (accessors.empty() && std::ranges::none_of(views, has_packed_view)))
-    return {std::move(bytes), std::move(gltf)};
+    return {std::move(bytes), std::make_unique<Tree>(std::move(gltf))};
   Unpacker unpacker(path, std::move(gltf));
   unpacker.unpack_views(bytes);
   if (!accessors.empty()) unpacker.make_floats(accessors);

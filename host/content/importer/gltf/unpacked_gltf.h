@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,8 +13,8 @@ namespace mars::importer {
 // A glTF file's bytes, as they are or unpacked.
 struct GltfBytes {
   std::string bytes;
-  Tree gltf;              // their JSON
-  bool unpacked = false;  // they are a GLB that is no file
+  std::unique_ptr<Tree> gltf;  // their JSON, never null
+  bool unpacked = false;       // they are a GLB that is no file
 };
 
 // Unpacks views of EXT_meshopt_compression, and makes floats of the bytes and shorts that KHR_mesh_quantization, or
