@@ -53,11 +53,11 @@ bool has_work_folder(const fs::path& made) { return is_marked(work_folder_of(mad
 
 WorkFolder::WorkFolder(const fs::path& made, Use use, const std::function<void()>& waits)
     : path_(work_folder_of(made)) {
-  while (!enter(use, waits)) {
-    close(folder_);
-    folder_ = -1;
-  }
   try {
+    while (!enter(use, waits)) {
+      close(folder_);
+      folder_ = -1;
+    }
     mark();
   } catch (...) {
     close(folder_);

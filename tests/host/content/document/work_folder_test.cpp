@@ -6,6 +6,7 @@
 #include <future>
 #include <memory>
 
+#include "hal/failure/failure.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/temporary_folder.h"
 
@@ -79,6 +80,17 @@ TEST_F(WorkFolderTest, TheSecondWaits) {
   first.reset();
   EXPECT_TRUE(second.get());
   EXPECT_FALSE(fs::exists(work_));
+}
+
+TEST_F(WorkFolderTest, NoDescriptorStaysWhereWaitingIsGivenUp) {
+  const WorkFolder first(made_, Use::alone);
+  const auto give_up = [] { throw Failure("was given up", "", ""); };
+  EXPECT_TRUE(holds(failure_of([&] { WorkFolder(made_, Use::alone, give_up); }), "was given up"));
+  std::error_code none;
+  int descriptors = 0;
+  for (const fs::directory_entry& each : fs::directory_iterator("/proc/self/fd"))
+    descriptors += fs::read_symlink(each.path(), none) == fs::canonical(work_);
+  EXPECT_EQ(descriptors, 1) << "the first one's";
 }
 
 TEST_F(WorkFolderTest, SharedFoldersStayWhileOneUsesThem) {
