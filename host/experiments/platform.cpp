@@ -318,8 +318,8 @@ std::string unidentified_text(const Platform& platform, std::span<const Work> ki
       names.push_back(wire::kWorkNames[static_cast<std::size_t>(kind)]);
   if (names.empty()) return "";
   return "mars calibrate could not measure these kinds of work apart from others: " + document::joined(names) +
-         "; the seconds are less sure for a film that has much more or less of them than its films have "
-         "(docs/platforms.md)";
+         "; the seconds are less sure for a film that has much more or less of them than the films of "
+         "mars calibrate have (docs/platforms.md)";
 }
 
 double file_seconds(const simulated::Machine& machine, images::PictureFormat format, const images::FileWork& work) {
