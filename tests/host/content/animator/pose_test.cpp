@@ -192,8 +192,11 @@ TEST_F(Poses, BlendAmongFewKeys) {
   for (std::uint32_t frame = 0; frame < 49; ++frame) were.push_back(shin(frame));
   pose("it", {"left-shin.y+=20"}, {12, 12}, Beyond::refused, 5);
   EXPECT_NEAR(shin(12), were[12] + 20, 1e-6);
-  for (std::uint32_t frame = 0; frame < 49; ++frame)
-    if (frame <= 7 || frame >= 17) EXPECT_NEAR(shin(frame), were[frame], 1e-6) << frame;
+  for (std::uint32_t frame = 0; frame < 49; ++frame) {
+    if (frame <= 7 || frame >= 17) {
+      EXPECT_NEAR(shin(frame), were[frame], 1e-6) << frame;
+    }
+  }
   EXPECT_EQ(pose("it", {"right-shin.y=30"}, {3, 3}, Beyond::refused, 5).size(), 0u);
   EXPECT_EQ(value_at(film_.actors[0].motion.pose[2], 8).y, 0);
 }
