@@ -25,6 +25,7 @@ namespace mars::animator {
 namespace {
 
 constexpr double kNoChange = 1e-7;  // of a number: less is what nine digits leave out
+constexpr double kAsAsked = 1e-3;   // degrees: a turn that misses less is the one that was asked for
 
 double number_after(const PartSetting& setting, std::size_t axis, double now) {
   if (!setting.numbers[axis]) return now;
@@ -48,12 +49,18 @@ document::Json held(const Thing& thing, const KeyedPart& part, const glm::dvec3&
   return written(part.joint ? within_limits(thing.name, *part.joint, pose, beyond, remarks, asked) : pose);
 }
 
+// The axis of a turn about one, as require_own_turn() has checked.
+int axis_of(const PartSetting& setting) {
+  int axis = 0;
+  while (!setting.numbers[static_cast<std::size_t>(axis)]) ++axis;
+  return axis;
+}
+
 // Turned about its own axis. The setting names one.
 document::Json value_after_own_turn(const PartSetting& setting, const Thing& thing, const document::Json& now,
                                     Beyond beyond, Remarks& remarks) {
   const KeyedPart& part = thing.part(setting.part);
-  int axis = 0;
-  while (!setting.numbers[static_cast<std::size_t>(axis)]) ++axis;
+  const int axis = axis_of(setting);
   const double degrees = *setting.numbers[static_cast<std::size_t>(axis)];
   const Turned turned = turned_about_own(*joint_of(part), vector_of(now), axis, degrees);
   const std::string asked = "turned " + document::shown(degrees) + " degrees about its own " + "xyz"[axis];
@@ -124,7 +131,7 @@ std::array<double, 3> change_between(const document::Json& from, const document:
 // A change of a key, as the keys beside it take a part of it.
 struct Change {
   std::array<double, 3> numbers;
-  std::optional<Turn> own{};  // instead: a turn about an axis in the joint's own frame
+  std::optional<Turn> own{};  // instead: a turn about an axis in the joint's own frame, of any angle
 };
 
 // Gathers settings of one thing, then makes them its keys.
@@ -147,6 +154,7 @@ class Posing {
     TrackKey* key = key_at(track, frame);
     // A second setting for the part keeps what the first one set.
     const bool again = !set_.insert(part.name).second;
+    settings_[part.name].push_back(setting);
     const document::Json now = again ? key->value : setting.relative ? part.key_at(frame) : part.value_at(frame);
     document::Json value = value_after(setting, thing(), now, manner_, remarks_);
     if (key != nullptr)
@@ -165,6 +173,7 @@ class Posing {
     const auto first = std::find_if(keys.begin(), keys.end(), held);
     if (first == keys.end()) return false;
     touch(thing().part(setting.part), {first->frame, std::find_if(keys.rbegin(), keys.rend(), held)->frame});
+    settings_[setting.part].push_back(setting);
     for (TrackKey& key : track->second) {
       if (!range.holds(key.frame)) continue;
       key.value = value_after(setting, thing(), key.value, manner_, remarks_);
@@ -243,14 +252,30 @@ class Posing {
     return near * near * (3 - 2 * near);
   }
 
+  // The turn that took `from` to `to`, as one setting asked for it, which may be more than half a turn. None where
+  // several settings turned the part, or limits kept it from the turn.
+  std::optional<Turn> asked_turn(const KeyedPart& part, const glm::dvec3& from, const glm::dvec3& to) const {
+    const std::vector<PartSetting>& settings = settings_.at(part.name);
+    if (settings.size() != 1) return std::nullopt;
+    const int axis = axis_of(settings.front());
+    const double degrees = *settings.front().numbers[static_cast<std::size_t>(axis)];
+    const glm::dvec3 present = present_axis(*part.turns, from, axis);
+    const glm::dmat3 turned = modeler::rotation_by_degrees(present, degrees) * modeler::orientation(*part.turns, from);
+    const Turn missed = turn_between(turned, modeler::orientation(*part.turns, to));
+    if (missed.angle > kAsAsked * modeler::kDegree) return std::nullopt;
+    return Turn{present_axis(*part.turns, {}, axis), degrees * modeler::kDegree};
+  }
+
   // A turn about an own axis may change all three numbers: keys beside it take a part of the turn, not of the numbers.
   Change change_of(const KeyedPart& part, const document::Json& from, const document::Json& to) const {
     Change change{change_between(from, to)};
     if (!manner_.local || !part.turns) return change;
-    const auto seen_from_joint = [&](const document::Json& pose) {
-      return glm::transpose(modeler::orientation(*part.turns, vector_of(pose)));
+    const glm::dvec3 before = vector_of(from), after = vector_of(to);
+    const auto seen_from_joint = [&](const glm::dvec3& pose) {
+      return glm::transpose(modeler::orientation(*part.turns, pose));
     };
-    change.own = turn_between(seen_from_joint(to), seen_from_joint(from));
+    change.own = asked_turn(part, before, after);
+    if (!change.own) change.own = turn_between(seen_from_joint(after), seen_from_joint(before));
     return change;
   }
 
@@ -278,8 +303,9 @@ class Posing {
   Tracks before_, tracks_;
   std::uint32_t last_frame_;  // of the film
   const PoseManner& manner_;
-  std::map<std::string, FrameRange> touched_;  // parts, and of each where its keys are set
-  std::set<std::string> set_;                  // parts
+  std::map<std::string, FrameRange> touched_;                 // parts, and of each where its keys are set
+  std::set<std::string> set_;                                 // parts
+  std::map<std::string, std::vector<PartSetting>> settings_;  // of each part
   std::set<std::uint32_t> frames_;
   std::vector<Pop> pops_;
   Remarks remarks_;

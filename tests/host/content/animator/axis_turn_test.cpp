@@ -144,6 +144,25 @@ TEST_F(OwnTurns, BlendAsTurns) {
   EXPECT_LT(distance(turn_at(0, 24), was * modeler::rotation_by_degrees({1, 0, 0}, 20)), 1e-8);
 }
 
+TEST_F(OwnTurns, BlendTheSameWayRoundBeyondHalfATurn) {
+  for (const double degrees : {200.0, -300.0, 360.0}) {
+    json_ = document::Json::parse(kFilmOfTurns);
+    read();
+    const glm::dmat3 there = turn_at(0, 20), beside = turn_at(0, 24);
+    turn({"stem.y+=" + document::shown(degrees)}, {20, 20}, Beyond::refused, 8);
+    EXPECT_LT(distance(turn_at(0, 20), there * modeler::rotation_by_degrees({0, 1, 0}, degrees)), 1e-8);
+    EXPECT_LT(distance(turn_at(0, 24), beside * modeler::rotation_by_degrees({0, 1, 0}, degrees / 2)), 1e-8) << degrees;
+  }
+}
+
+TEST_F(OwnTurns, OfTwoAxesBlendAsTheOneTurnThatTheyMake) {
+  const glm::dmat3 was = turn_at(0, 20);
+  const glm::dmat3 beside = turn_at(0, 24);
+  turn({"stem.x+=30", "stem.z+=40"}, {20, 20}, Beyond::refused, 8);
+  const Turn whole = turn_between(glm::transpose(turn_at(0, 20)), glm::transpose(was));
+  EXPECT_LT(distance(turn_at(0, 24), beside * modeler::rotation(whole.axis, whole.angle / 2)), 1e-8);
+}
+
 TEST_F(OwnTurns, KeepLimitsOrAreClampedByNumber) {
   const std::string said = failure({"left-arm.x+=150"});
   EXPECT_TRUE(holds(said, "joint 'left-arm'")) << said;
