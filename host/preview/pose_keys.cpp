@@ -106,8 +106,9 @@ std::string PoseKeys::turn(int axis, double degrees, std::uint32_t frame) {
   const modeler::Limits& limits = joint().limits[static_cast<std::size_t>(axis)];
   const std::string name = std::string(1, "xyz"[axis]);
   if (!limits.free()) return "does not turn about " + name;
-  if (own_axes_ && joint().freedoms() > 1) return turn_own(axis, degrees, frame);
-  const double now = pose_.pose_at(*film_->source, *selected_, frame)[axis];
+  const glm::dvec3 pose = pose_.pose_at(*film_->source, *selected_, frame);
+  if (own_axes_ && !animator::turns_by_number(joint(), pose, axis)) return turn_own(axis, degrees, frame);
+  const double now = pose[axis];
   const double wanted = animator::rounded(now + degrees), to = std::clamp(wanted, limits.lower, limits.upper);
   if (to != now) pose_.set(*film_->source, *selected_, axis, to);
   return to == wanted ? "" : name + " stops at its limit";

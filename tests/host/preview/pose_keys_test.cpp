@@ -87,6 +87,16 @@ TEST_F(Posing, TurnsWithinLimits) {
   EXPECT_EQ(document::read_file(path_), kFilm);
 }
 
+TEST_F(Posing, TurnsNoHingeAboutAnAxisThatALockedOneHasTurnedAway) {
+  std::string text(kFilm);
+  text.replace(text.find(R"("y": [-60, 60])"), 14, R"("z": [30, 30])");
+  document::write_whole_file(path_, text);
+  Previewed film = load_previewed(path_);
+  PoseKeys keys(film, path_);
+  EXPECT_TRUE(press(keys, "\tax").ends_with("y is locked")) << keys.note(10);
+  EXPECT_FALSE(keys.under_way());
+}
+
 // y as x has left it, and x as y then stands: by numbers another pose. Limits stop a whole step.
 TEST_F(Posing, TurnsAboutOwnAxesAsTheyStand) {
   std::string text(kFilm);

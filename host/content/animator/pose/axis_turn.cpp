@@ -31,8 +31,15 @@ Turned turned_about(const modeler::Joint& joint, const glm::dvec3& pose, const g
   return reached(joint, modeler::rotation_by_degrees(axis, degrees) * modeler::orientation(joint, pose), near);
 }
 
+bool turns_by_number(const modeler::Joint& joint, const glm::dvec3& pose, int axis) {
+  if (joint.freedoms() > 1) return false;
+  for (int later = axis + 1; later < 3; ++later)
+    if (pose[later] != 0) return false;
+  return true;
+}
+
 Turned turned_about_own(const modeler::Joint& joint, const glm::dvec3& pose, int axis, double degrees) {
-  if (joint.freedoms() < 2) {
+  if (turns_by_number(joint, pose, axis)) {
     glm::dvec3 turned = pose;
     turned[axis] += degrees;
     return {turned, 0};

@@ -23,8 +23,11 @@ glm::dvec3 present_axis(const modeler::Joint& joint, const glm::dvec3& pose, int
 Turned turned_about(const modeler::Joint& joint, const glm::dvec3& pose, const glm::dvec3& axis, double degrees,
                     const glm::dvec3& near);
 
-// The same about the joint's own present axis, nearest to `pose`. A joint with at most one freedom turns by its number,
-// also beyond half a turn.
+// Whether a turn about the joint's own present axis is one of that number alone, also beyond half a turn: the joint has
+// at most one freedom, and the axes that turn after this one are locked at 0.
+bool turns_by_number(const modeler::Joint& joint, const glm::dvec3& pose, int axis);
+
+// The same as turned_about(), about the joint's own present axis, nearest to `pose`, or by its number.
 Turned turned_about_own(const modeler::Joint& joint, const glm::dvec3& pose, int axis, double degrees);
 
 }  // namespace mars::animator

@@ -180,6 +180,19 @@ TEST_F(OwnTurns, OfHingesAreTheirNumber) {
   EXPECT_TRUE(holds(failure({"hinge.y+=400"}), "outside its limits -500 to 500"));
 }
 
+// The number of z turns after that of x: about x as it then stands the first hinge cannot turn.
+TEST(TurnedAboutOwn, IsOfAHingeItsNumberOnlyWhereNothingTurnsAfterIt) {
+  modeler::Joint hinge;
+  hinge.limits = {modeler::Limits{-500, 500}, {0, 0}, {30, 30}};
+  const glm::dvec3 pose(10, 0, 30);
+  const Turned turned = turned_about_own(hinge, pose, 0, 20);
+  const glm::dmat3 wanted = modeler::orientation(hinge, pose) * modeler::rotation_by_degrees({1, 0, 0}, 20);
+  EXPECT_LT(distance(modeler::orientation(hinge, turned.pose), wanted), 1e-7);
+  EXPECT_GT(largest_excess(hinge, turned.pose), 1) << "which its limits refuse";
+  hinge.limits = {modeler::Limits{30, 30}, {-500, 500}, {0, 0}};
+  EXPECT_EQ(turned_about_own(hinge, {30, 10, 0}, 1, 400).pose, glm::dvec3(30, 410, 0));
+}
+
 TEST_F(OwnTurns, OfAWholeActorAreOfItsTurn) {
   turn({"turn.z+=90", "turn.x+=90"}, {40, 40});
   EXPECT_EQ(film_.actors[0].motion.turn.back().value, glm::dvec3(0, 90, 90));
