@@ -34,6 +34,7 @@ void join_parts(std::vector<TilePart>& parts) {
 ShaftReach reach_of(const LightViews& light, float high_z) {
   const LightView& view = light.middle.front();
   if (view.has_place == 0) return {{light.spread, light.size, 0.75f, 1, 2 / view.per_step, 0}, 0};
+  if (high_z == 0) return {{0, 0, 0.25f, 0.25f, 0, 1}, -kAnywhere};
   const float r = light.size, depth = 1 / high_z;
   if (depth < 2 * r) return {{light.spread, 2 * std::numbers::sqrt2_v<float> * r, 0.25f, 0.25f, 0, 1}, kAnywhere};
   const float tangent = 1.001f * std::numbers::sqrt2_v<float> * r * depth / (depth - r);

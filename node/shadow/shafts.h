@@ -23,7 +23,7 @@ struct ShaftReach {
   Shaft shaft;
   float near;
 };
-// `high_z`: the greatest z of the points.
+// `high_z`: the greatest z of the points; 0 if there are none, which no surface is near enough to block.
 ShaftReach reach_of(const LightViews& light, float high_z);
 bool is_near(const LightViews& light, std::size_t face, const ShaftReach& reach, const Hull& hull);
 

@@ -209,5 +209,16 @@ TEST(ShaftReach, LeavesOutNothingBeforePointsNearALight) {
   EXPECT_FALSE(is_near(light, 0, reach_of(light, 1 / 9.0f), before));
 }
 
+TEST(ShaftReach, IsNearNothingWithoutPoints) {
+  Random random(83);
+  const LightViews light = light_views(random_light(random, wire::LightKind::point, 0.5), kPicture);
+  const LightView& view = light.middle.front();
+  Hull around{};
+  around.count = 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) around.along[axis][0] = view.place[axis] + 0.01f * view.axis[axis];
+  EXPECT_FALSE(is_near(light, 0, reach_of(light, 0), around));
+  EXPECT_TRUE(is_near(light, 0, reach_of(light, 1 / 9.0f), around));
+}
+
 }  // namespace
 }  // namespace mars::shadow
