@@ -12,7 +12,7 @@
 namespace mars::shadow {
 namespace {
 
-constexpr std::size_t kMostBand = std::size_t{32} << 20, kMostPoints = std::size_t{72} << 20;
+constexpr std::size_t kMostBand = std::size_t{32} << 20, kMostPoints = std::size_t{144} << 20;
 constexpr std::size_t kGrain = 64;          // of the band's arena
 constexpr std::size_t kVectorPlace = 64;    // beside a vector's points: where they come from, boxes round them
 constexpr std::size_t kTables = 6u << 20;   // a dicer, grids, batches of triangles, views of lights, lists of squares
@@ -20,10 +20,11 @@ constexpr std::uint32_t kLinesOfLeast = 2;  // of a band
 
 std::size_t squares_of_row(const ShadowNeeds& needs) { return (std::size_t{needs.width} + kTile - 1) / kTile; }
 
-// For a light that has a size: shafts have what one without has, and each of its points a vector more.
+// For a light that has a size: shafts have what one without has, and each of its points a vector more. Twice, because
+// faces of a light keep the memory that faces of another light took.
 std::size_t bytes_of_square(const ShadowNeeds& needs) {
   const std::size_t vectors = std::size_t{kTile} * kTile * needs.samples / kPointLanes + 1;
-  return (vectors + vectors / 2) * (sizeof(PointVector) + kVectorPlace);
+  return 2 * (vectors + vectors / 2) * (sizeof(PointVector) + kVectorPlace);
 }
 
 // Of the line that is put: shares of light, pixel groups, depths and ids; and places of diced surfaces by number.

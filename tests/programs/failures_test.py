@@ -165,10 +165,10 @@ class Memory(ProgramTest):
             self.assertNotIn("warning", printed)
 
     def test_a_limit_of_data_is_named(self):
-        limit = lambda: resource.setrlimit(resource.RLIMIT_DATA, (100000 << 10, 100000 << 10))
+        limit = lambda: resource.setrlimit(resource.RLIMIT_DATA, (80000 << 10, 80000 << 10))
         for backend in self.backends():
             self.fail_clearly(1, "render", TEAPOT, "--sink", "none", "--nodes", 3, "--frames", "0", "--backend", backend,
-                              says="ulimit -d 100000", preexec_fn=limit)
+                              says="ulimit -d 80000", preexec_fn=limit)
 
     def test_without_a_backend(self):
         self.assertFalse(self.within(50000, "mars", "info", TEAPOT))

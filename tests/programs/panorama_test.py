@@ -184,7 +184,8 @@ class Panoramas(ProgramTest):
     @unittest.skipIf(SANITIZED, "sanitizers have memory of their own")
     def test_what_joining_takes_is_forecast_and_refused_before_faces_are_drawn(self):
         film = self.write("film.json", a_film(frames=1))
-        planned = [json.loads(self.succeed("mars", "plan", film, "--nodes", 1, "--size", size, "--json", *words))
+        planned = [json.loads(self.succeed("mars", "plan", film, "--platform", "fat-tree", "--nodes", 1, "--size", size,
+                                           "--json", *words))
                    for size, *words in [["512x256"], ["1024x512"], ["512x256", "--faces"]]]
         small, large = (plan["joining_memory"] for plan in planned[:2])
         self.assertAlmostEqual(large / small, 4, delta=0.1)

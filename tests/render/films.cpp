@@ -370,7 +370,8 @@ modeler::Shape patch_tube(std::uint32_t rows, std::uint32_t bones) {
   return {"tube", modeler::patches_of(means, points), {}, modeler::control_net(means, points, follows, kAround)};
 }
 
-constexpr std::uint32_t kFramesOfABend = 40;  // tubes repeat their motion in long films
+// Tubes repeat their motion in long films, also for each of three nodes that take turns at intervals of three frames.
+constexpr std::uint32_t kFramesOfABend = 36;
 
 }  // namespace
 

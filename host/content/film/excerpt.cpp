@@ -13,11 +13,14 @@ namespace {
 // Frames whose matrices the excerpt has, ascending; the first is 0, as tracks have it.
 std::vector<std::uint32_t> known_frames(const wire::PackedFilm& film, std::span<const std::uint32_t> frames) {
   std::vector<std::uint32_t> known = {0};
-  for (const std::uint32_t frame : frames)
-    for (const std::uint32_t each : {frame == 0 ? 0 : frame - 1, frame}) {
-      known.push_back(film.interval_at(each).first_frame);
-      known.push_back(each);
-    }
+  const auto add = [&](std::uint32_t frame) {  // and the one before, from which motion is seen
+    known.push_back(frame);
+    if (frame > 0) known.push_back(frame - 1);
+  };
+  for (const std::uint32_t frame : frames) {
+    add(frame);
+    add(film.interval_at(frame).first_frame);
+  }
   std::ranges::sort(known);
   const auto twice = std::ranges::unique(known);
   known.erase(twice.begin(), twice.end());

@@ -10,9 +10,9 @@
 
 namespace mars::film {
 
-// A film of as many frames, in which the given ones, the ones before them (of which motion is seen) and the first ones
-// of their intervals are as in `film`, and the same segments move in each interval; other frames show anything. None
-// where that is more than half as large. `frames` ascend.
+// A film of as many frames. The given frames, which ascend, and the first frames of their intervals are as in `film`,
+// and so is where everything was in the frame before each. Other frames show anything. None if the excerpt is more than
+// half as large as the film.
 std::optional<CompiledFilm> excerpt_of(const CompiledFilm& film, std::span<const std::uint32_t> frames);
 
 }  // namespace mars::film

@@ -29,7 +29,7 @@ TEST(ShadowPlan, HasALeastAndAMost) {
     EXPECT_EQ(plan_shadows(needs, 1).bytes(), least_shadow_bytes(needs));
     EXPECT_EQ(plan_shadows(needs, 1 << 30).bytes(), most_shadow_bytes(needs));
   }
-  EXPECT_LT(least_shadow_bytes(kSmall), 10 * kMiB);
+  EXPECT_LT(least_shadow_bytes(kSmall), 11 * kMiB);
   EXPECT_LT(least_shadow_bytes(kLarge), 80 * kMiB);
 }
 

@@ -57,7 +57,7 @@ TEST(Excerpt, ShowsTheSameFrames) {
   for (const CompiledFilm& film :
        {long_film(arm_film(kArms, kFourHundred)), compiled(sleeve_film(R"({"name": "x", "model": "arm", "keys": [
         {"frame": 0, "pose": {"fore": [0, 0, 0]}}, {"frame": 399, "pose": {"fore": [0, -90, 0]}}]})",
-                                                                  R"("frames": 400)"))})
+                                                                       R"("frames": 400)"))})
     for (const Frames& frames : {Frames{0}, Frames{7}, Frames{50, 51, 130, 131}, Frames{90, 200}, Frames{kFrames - 1}})
       expect_as_whole(film, frames);
 }

@@ -69,8 +69,9 @@ TEST(LazyMemory, FilmsInFilesAreTheSame) {
   const test::TemporaryFolder folder;
   save_film(in_file, folder / "x.mars");
   const CompiledFilm back = load_compiled_film(folder / "x.mars", true);
-  if (in_file.lines.get_allocator().in_file)
+  if (in_file.lines.get_allocator().in_file) {
     EXPECT_LT(resident_bytes(), before + (std::size_t{100} << 20)) << "of 200 MB each";
+  }
   EXPECT_EQ(in_file.checksum(), compile(film).checksum());
   EXPECT_EQ(back.checksum(), in_file.checksum());
   EXPECT_TRUE(is_saved(in_file, folder / "x.mars"));

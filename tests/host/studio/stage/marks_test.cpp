@@ -102,7 +102,7 @@ TEST(Marks, AreSelectedByMessageAndByTheirSymbols) {
   MarkScene scene;
   scene.select("light/3");
   EXPECT_EQ(scene.last("selected"),
-            Json::parse(R"({"is": "selected", "actor": null, "joint": null, "thing": "light/3"})"));
+            Json::parse(R"({"is": "selected", "actor": null, "joint": null, "thing": "light/3", "more": []})"));
   EXPECT_TRUE(scene.ids().contains("light/3:at"));
   EXPECT_TRUE(scene.ids().contains("light/3:cone"));
   EXPECT_TRUE(scene.ids().contains("arrow:x"));
