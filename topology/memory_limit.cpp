@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -72,6 +74,12 @@ std::uint64_t usable_memory() {
   const std::uint64_t bytes = std::uint64_t(sysconf(_SC_PHYS_PAGES)) * std::uint64_t(sysconf(_SC_PAGESIZE));
   const std::uint64_t limit = memory_limit().least();
   return limit == 0 ? bytes : std::min(bytes, limit);
+}
+
+std::string gigabytes(std::uint64_t bytes) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%.1f GB", static_cast<double>(bytes) / 1e9);
+  return text.data();
 }
 
 std::uint64_t memory_share(std::uint64_t machine_bytes, const MemoryLimit& limit, int processes, int threads) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 #include "hal/failure/process_limit.h"
 
@@ -27,6 +28,9 @@ struct MemoryLimit {
 
 // Bytes that the calling process may use: the machine's, or the least limit's.
 std::uint64_t usable_memory();
+
+// An amount of memory in messages about usable_memory(): "1.5 GB".
+std::string gigabytes(std::uint64_t bytes);
 
 // Of the calling process. `root` is where proc/ and sys/ are.
 MemoryLimit memory_limit(const std::filesystem::path& root = "/");

@@ -107,7 +107,7 @@ TEST(Allocation, NoneWithSkins) {
   }
 }
 
-// Of far lights and of lights in the midst, which see six ways, of points and of lights that have a size.
+// Far lights, and lights in the midst of the scene, which have six views; with and without a size.
 TEST(Allocation, NoneWithShadows) {
   expect_none_in_steady_state(casting(crowd(64, 36, 400, 3), {0.0f}), nullptr);
   expect_none_in_steady_state(casting(richly_lit(with_samples(crowd(64, 36, 400, 3), 4)), {0.0f, 0.0f, 0.0f}), nullptr);

@@ -110,5 +110,11 @@ TEST(MemoryShare, IsHalfOfAnEqualPartOfTheLeast) {
   EXPECT_EQ(memory_share(0, {256 * kMiB, {}, {}}, 1), 128 * kMiB);
 }
 
+TEST(MemoryLimit, AmountsAreWrittenInGigabytes) {
+  EXPECT_EQ(gigabytes(3'250'000'000), "3.2 GB");
+  EXPECT_EQ(gigabytes(40'000'000), "0.0 GB");
+  EXPECT_EQ(gigabytes(10'000'000'000'000), "10000.0 GB");
+}
+
 }  // namespace
 }  // namespace mars::topology

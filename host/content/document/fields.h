@@ -36,7 +36,7 @@ glm::dvec3 read_vector(const Element& element, Range range = {});
 glm::dvec3 read_color(const Element& element);  // each part 0 to 1
 std::string read_text(const Element& element);  // not empty
 
-// What is wrong with a file that a film or model names: "which does not exist". Empty where it is a regular file.
+// Says why a file that a film or model names is of no use: "which does not exist". Empty if it is a regular file.
 std::string file_trouble(const std::filesystem::path& path);
 
 // The path of a file that the element names as seen from a folder (its document's): a regular file that is there.

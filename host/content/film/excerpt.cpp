@@ -27,7 +27,7 @@ std::vector<std::uint32_t> known_frames(const wire::PackedFilm& film, std::span<
   return known;
 }
 
-// Of segments and bones.
+// Calls visit(motion) for the motions of segments and bones.
 template <typename Visit>
 void visit_motions(const wire::PackedFilm& film, const Visit& visit) {
   for (const wire::Segment& segment : film.segments()) visit(segment.motion);
@@ -84,7 +84,7 @@ class Excerpt {
     return {first, static_cast<std::uint32_t>(data_.changes.size()) - first};
   }
 
-  // Of intervals whose frames are not known, nothing moves; intervals that have one list follow each other.
+  // Nothing moves in intervals whose frames are not known. Intervals that share a list follow each other.
   void write_intervals() {
     const wire::Interval* last = nullptr;
     wire::Track list{};

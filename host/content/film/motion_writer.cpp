@@ -148,8 +148,6 @@ std::vector<std::size_t> most_of_motion(const animator::Film& film, std::size_t 
   return most;
 }
 
-std::string gigabytes(std::uint64_t bytes) { return document::formatted("%.1f GB", double(bytes) / 1e9); }
-
 class MotionWriter {
  public:
   MotionWriter(const animator::Film& film, wire::FilmData& data, CompiledFilm::Lines& lines)
@@ -210,7 +208,8 @@ class MotionWriter {
     const std::uint64_t most = std::numeric_limits<std::uint32_t>::max() - data_.changes.size();
     if (needed <= here && most_matrices_ <= most) return;
     throw Failure("moves so much that it needs " + std::to_string(most_matrices_) + " T-matrices, " +
-                      gigabytes(needed) + " of memory" + (needed > here ? ", where there are " + gigabytes(here) : ""),
+                      topology::gigabytes(needed) + " of memory" +
+                      (needed > here ? ", where there are " + topology::gigabytes(here) : ""),
                   film_.source.empty() ? "actors" : film_.source + ": actors",
                   "make the film shorter, or move fewer segments at a time");
   }

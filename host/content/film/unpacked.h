@@ -8,10 +8,11 @@
 
 namespace mars::film {
 
-// What is the same at all frames, and the values that tracks name, but for matrices; without intervals.
+// Copies everything that is the same at all frames, and the values of tracks; leaves out matrices, changes and
+// intervals.
 wire::FilmData unpacked(const wire::PackedFilm& film);
 
-// `like`: what it is made of.
+// `like`: the film that `data` was copied from, whose source and counts the result has.
 CompiledFilm packed(const wire::FilmData& data, std::span<const wire::Matrix> matrices, const CompiledFilm& like);
 
 }  // namespace mars::film

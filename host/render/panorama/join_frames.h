@@ -22,7 +22,7 @@ struct Joining {
   std::uint64_t memory = 0;  // bytes that it may take, but for what one frame takes
 };
 
-// That one frame of these pixels takes, where a face has `side` pixels a side.
+// The memory that joining one frame of these pixels takes; a face has `side` pixels a side.
 std::uint64_t joining_bytes(std::uint32_t side, wire::PixelFormat pixels);
 
 // `joined` is called with the number of frames that are done, from several threads, one at a time. Throws

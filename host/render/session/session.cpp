@@ -21,7 +21,6 @@
 #include "hal/nx/nx_messages.h"
 #include "host/content/document/file_failure.h"
 #include "host/content/document/recorded_reads.h"
-#include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
 #include "host/content/film/excerpt.h"
 #include "host/content/film/frame_content.h"
@@ -102,7 +101,7 @@ void check_pictures(const farm::HostMemory& memory, const std::string& film) {
   const std::uint32_t kept = memory.backgrounds;  // buffers, and each group's saved background
   const std::uint64_t needed = kept * memory.frame_bytes, here = topology::usable_memory();
   if (needed <= here) return;
-  const auto gigabytes = [](std::uint64_t bytes) { return document::formatted("%.1f GB", double(bytes) / 1e9); };
+  using topology::gigabytes;
   throw Failure("has pictures of " + gigabytes(memory.frame_bytes) + ", of which the host keeps " +
                     std::to_string(kept) + ": it needs " + gigabytes(needed) + " of memory, where there are " +
                     gigabytes(here),

@@ -134,10 +134,9 @@ FilmPanorama::FilmPanorama(const options::RenderOptions& options, Display& displ
 void FilmPanorama::check_memory() const {
   const std::uint64_t bytes = panorama::joining_bytes(film::face_side(opened_.film.view().settings().width),
                                                       images::facts_of(options_.format).pixels);
-  const auto gigabytes = [](std::uint64_t some) { return document::formatted("%.1f GB", double(some) / 1e9); };
-  const std::string needed = "joining each frame of its faces takes " + gigabytes(bytes) + " of memory";
+  const std::string needed = "joining each frame of its faces takes " + topology::gigabytes(bytes) + " of memory";
   if (const std::uint64_t here = topology::usable_memory(); !opened_.frames.empty() && bytes > here)
-    throw Failure(needed + ", where there are " + gigabytes(here), options_.film,
+    throw Failure(needed + ", where there are " + topology::gigabytes(here), options_.film,
                   "render a smaller panorama (--size), or join it on a machine with more memory");
   if (!opened_.frames.empty() && bytes >= kMuch) display_.print(needed);
 }

@@ -1,15 +1,28 @@
 """Renderings that are killed at random moments and then finished: folders and videos are those of a rendering that nothing
 disturbed, and nothing else is left."""
+import pathlib
 import shutil
 import signal
 import subprocess
+import time
 
 from watcher import Watcher
 
 MOST_KILLS = 2   # of one rendering
 LONGEST = 1.0    # seconds that a rendering lives before it is killed
-PATIENCE = 120   # seconds for a process to die of a signal
+PATIENCE = 120   # seconds for a process to die of a signal, and for what the process has started to end after that
 ENDINGS = [signal.SIGKILL, signal.SIGTERM]
+
+
+def lives_with(word):
+    """Whether the command line of a process that has not ended has the word."""
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            if word in (process / "cmdline").read_text(errors="replace").split("\0"):
+                return True
+        except OSError:  # the process has ended since
+            continue
+    return False
 
 
 class Killed:
@@ -28,6 +41,15 @@ class Killed:
             self.kills += 1
             process.send_signal(self.choose.choice(ENDINGS))
             process.wait(PATIENCE)
+        self.wait_for_what_was_started()
+
+    def wait_for_what_was_started(self):
+        """A host outlives its mpirun for a moment, in which the folder is the host's."""
+        until = time.monotonic() + PATIENCE
+        while lives_with(str(self.path)):
+            if time.monotonic() > until:
+                raise RuntimeError(f"processes that draw {self.path} live {PATIENCE} s after their command was killed")
+            time.sleep(0.05)
 
     def render(self, words, watcher_of=lambda: None):
         """The watcher of the last start, which runs to its end."""

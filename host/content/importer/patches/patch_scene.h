@@ -30,11 +30,11 @@ struct PatchScene {
 // A scene with more patches, or with deeper nesting, is refused, while it takes less than half a gigabyte: to make a
 // model of a patch takes as many bytes, most of them text.
 inline constexpr std::size_t kMostScenePatches = 500'000, kBytesOfPatch = 2'500, kDeepestScene = 200;
-// Numbers in brackets, as of a mesh of so many patches that have no points in common but on their edges.
+// The most numbers in brackets: those of a mesh of kMostScenePatches patches that share only points on their edges.
 inline constexpr std::size_t kMostSceneNumbers = std::size_t{1} << 24;
 inline constexpr std::uintmax_t kLargestPatchScene = std::uintmax_t{1} << 28;
 
-// Of a scene with more than kMostScenePatches patches.
+// The problem of a scene with more than kMostScenePatches patches, for a Failure.
 std::string too_many_patches();
 
 void transform(std::vector<ScenePatch>& patches, const glm::dmat4& by);
