@@ -7,7 +7,7 @@ import signal
 import subprocess
 import unittest
 
-from harness import PROGRAMS, SANITIZED, SECONDS, ENVIRONMENT, ProgramTest, main, needs, wait_until
+from harness import PROGRAMS, SANITIZED, SECONDS, ENVIRONMENT, ProgramTest, family, main, needs, send, wait_until
 from png_reader import png_rows
 
 THREADS = ["--backend", "threads", "-q"]
@@ -134,6 +134,8 @@ class Panoramas(ProgramTest):
         process = subprocess.Popen([*map(str, words)], cwd=self.folder, env=ENVIRONMENT, stderr=subprocess.PIPE)
         self.addCleanup(self.end, process)
         wait_until(lambda: len(list((work / "faces").glob("*.exr"))) > 6, SECONDS, "no face")
+        send([process.pid, *family(process.pid)], signal.SIGSTOP)
+        self.assertLess(len(list((work / "faces").glob("*.exr"))), 1998, "the other run still has faces to draw")
         done = self.fail_clearly(1, "render", film, "-o", "out", "--frames", "0", *THREADS, says=face.name)
         self.assertNotIn("another run", done.stderr)
 
