@@ -53,6 +53,15 @@ class Identity(unittest.TestCase):
         self.assertEqual(edits[0], edits[1])
         self.assertGreater(len({str(edit) for edit in edits[0]}), FILMS // 2)
 
+    def test_edits_keep_panoramas_twice_as_wide_as_high(self):
+        film = next(film for film in (RandomFilm(seed).json for seed in range(FILMS))
+                    if film["camera"].get("projection") == "panorama")
+        edits = [random_edits.random_edit(random.Random(seed), film) for seed in range(40 * FILMS)]
+        sizes = [word[5:].split(",") for edit in edits for word in edit if edit[2] == "set" and word.startswith("size=")]
+        self.assertTrue(sizes)
+        for width, height in sizes:
+            self.assertEqual(int(width), 2 * int(height))
+
     def test_edits_are_of_every_verb(self):
         edits = [random_edits.random_edit(random.Random(f"{seed} {i}"), RandomFilm(seed).json)
                  for seed in range(FILMS) for i in range(10)]

@@ -59,7 +59,12 @@ class Edits:
             f"frames={self.film['frames'] + self.choose.choice([1, 2])}", f"samples={self.choose.choice([1, 2, 4])}",
             f"background={self.numbers(0, 1)}", f"ambient={self.numbers(0, 1)}", f"dice={self.choose.choice([1, 3, 8])}",
             f"intervals={self.choose.choice(['auto', 'keyframes'])}",
-            f"size={self.choose.randint(9, 160)},{self.choose.randint(9, 160)}"])]
+            f"size={self.size()}"])]
+
+    def size(self):
+        """A panorama is twice as wide as high."""
+        width, height = (self.choose.randint(9, 160) for _ in "wh")
+        return f"{2 * height if self.film['camera'].get('projection') == 'panorama' else width},{height}"
 
     # Actors, lights and materials.
 
