@@ -224,8 +224,11 @@ class Run(unittest.TestCase):
 
     def test_a_mutant_is_found_by_what_fails_twice_and_stays_found(self):
         mutant = Source("hal/a.cpp", "int f() {\n  x = a + b;\n}\n").mutants()[0]
-        once = self.made("hal_once_test", "[ $MUTANT_OF_MARS = 0 ] || [ -e once ] || ! touch once")
-        tests = [self.made("always_test", "exit 1"), self.made("last_test", "[ $MUTANT_OF_MARS = 0 ] || exit 1"), once]
+        once = self.made("hal_once_test",
+                         "[ $MUTANT_OF_MARS = 0 ] || if [ -e once ]; then touch twice; else ! touch once; fi")
+        after = self.made("last_test",
+                          "[ $MUTANT_OF_MARS = 0 ] || { until [ -e twice ]; do sleep 0.01; done; exit 1; }")
+        tests = [self.made("always_test", "exit 1"), after, once]
         said = io.StringIO()
         with unittest.mock.patch("trials.tests_of", lambda build: tests), contextlib.redirect_stdout(said):
             judge = mutants.Judge(self.folder, "of these sources", ["quick"])
