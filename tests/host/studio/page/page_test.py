@@ -791,6 +791,7 @@ class Films(Page):
                 self.type('[data-key="frame"]', Keys.CONTROL, "a", Keys.NULL, "7", end)
                 self.press(Keys.ARROW_LEFT)
                 self.studio.wait_for("orbit", view=0, how="turn", moving=True)
+                self.studio.wait_for("orbit", moving=False)  # soon after the last key
                 self.press("s")
                 self.studio.wait_for("view", view=0)
                 self.press(".")
