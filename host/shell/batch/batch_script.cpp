@@ -4,7 +4,7 @@
 #include <iterator>
 #include <map>
 
-#include "hal/failure/check.h"
+#include "hal/failure/failure.h"
 #include "host/content/document/file.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"

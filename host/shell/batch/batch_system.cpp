@@ -39,7 +39,7 @@ BatchSystem slurm() {
           .columns = {'|', 0, 1, 2, 3, 4, 5},
           .states = {},
           .ended = {},
-          .unknown = "Invalid job id",
+          .unknown = {"Invalid job id"},
           .cancel = {"scancel"}};
 }
 
@@ -64,7 +64,7 @@ tasks() { cat "$PBS_NODEFILE"; }
           .columns = {' ', 0, 4, 3, -1, -1, -1},
           .states = {{"Q", "pending"}, {"R", "running"}, {"H", "held"}, {"E", "ending"}, {"W", "waiting"}},
           .ended = {"C", "F"},
-          .unknown = "nknown Job",
+          .unknown = {"nknown Job", "Job has finished"},
           .cancel = {"qdel"}};
 }
 
@@ -88,7 +88,7 @@ tasks() { [ -z "$LSB_HOSTS" ] || printf '%s\n' $LSB_HOSTS; [ -n "$LSB_HOSTS" ] |
           .columns = {'|', 0, 1, 2, -1, 3, 4},
           .states = {{"RUN", "running"}, {"PEND", "pending"}, {"PSUSP", "held"}},
           .ended = {"DONE", "EXIT"},
-          .unknown = "is not found",
+          .unknown = {"is not found", "already finished", "No matching job"},
           .cancel = {"bkill"}};
 }
 
@@ -115,7 +115,7 @@ tasks() {
           .columns = {'|', 0, 1, 2, -1, 3, -1},
           .states = {{"RUN", "running"}, {"SCHED", "pending"}},
           .ended = {"INACTIVE"},
-          .unknown = "nknown",
+          .unknown = {"nknown", "inactive"},
           .cancel = {"flux", "cancel"}};
 }
 
@@ -126,9 +126,9 @@ const std::vector<BatchSystem>& batch_systems() {
   return systems;
 }
 
-const BatchSystem& batch_system_in(const std::string& path) {
+BatchSystem batch_system_in(const std::string& path) {
   const auto is_there = [&](const BatchSystem& system) {
-    return std::ranges::all_of(system.programs, [&](const auto& each) { return child::find_program(each, path); });
+    return std::ranges::all_of(system.programs, [&](const auto& each) { return child::find_program(each, path).has_value(); });
   };
   const auto found = std::ranges::find_if(batch_systems(), is_there);
   if (found != batch_systems().end()) return *found;

@@ -35,13 +35,13 @@ struct BatchSystem {
   Columns columns;
   std::vector<std::array<std::string, 2>> states;  // words for people in place of its own
   Words ended;                                     // its own states of jobs that have ended
-  std::string unknown;                             // a part of what it says of a job that it does not know any more
+  Words unknown;                                   // parts of what it says of jobs that it does not know any more
   Words cancel;
 };
 
 const std::vector<BatchSystem>& batch_systems();
 
 // The first one whose programs are in `path`. Throws Failure where there is none.
-const BatchSystem& batch_system_in(const std::string& path);
+BatchSystem batch_system_in(const std::string& path);
 
 }  // namespace mars::batch

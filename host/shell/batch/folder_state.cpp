@@ -44,9 +44,9 @@ void count_frames(FolderState& state, const fs::path& folder) {
 }
 
 // A cluster whose controller does not answer hides no frames.
-void find_jobs(FolderState& state, const std::vector<std::string>& numbers) {
+void find_jobs(FolderState& state, const std::vector<Jobs>& jobs) {
   try {
-    state.jobs = queued_jobs(numbers);
+    state.jobs = queued_jobs(jobs);
   } catch (const Failure& failure) {
     state.no_jobs = failure.problem;
   }
@@ -110,10 +110,10 @@ bool FolderState::active() const {
 FolderState look_at(const fs::path& folder) {
   FolderState state;
   state.folder = folder.string();
-  const std::vector<std::string> numbers = RememberedJobs(folder).numbers();
-  if (!numbers.empty()) find_jobs(state, numbers);
+  const std::vector<Jobs> jobs = jobs_of(folder);
+  if (!jobs.empty()) find_jobs(state, jobs);
   state.runs = runs_in(folder);
-  if (numbers.empty() || fs::exists(folder / "frames.json")) count_frames(state, folder);
+  if (jobs.empty() || fs::exists(folder / "frames.json")) count_frames(state, folder);
   return state;
 }
 

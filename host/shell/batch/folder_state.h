@@ -1,5 +1,5 @@
 // What goes on in a folder of frames: how much is there, the runs that render into it, with their machines, and the
-// Slurm jobs that were submitted for it.
+// batch jobs that were submitted for it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/status.h"
-#include "host/shell/batch/slurm.h"
+#include "host/shell/batch/queued_jobs.h"
 
 namespace mars::batch {
 
@@ -30,7 +30,7 @@ struct FolderState {
   std::uint32_t of = 0;     // that runs were asked for so far
   std::vector<Run> runs;
   std::vector<QueuedJob> jobs;
-  std::string no_jobs;  // why Slurm's are unknown
+  std::string no_jobs;  // why they are unknown
 
   bool complete() const { return of > 0 && there == of; }
   // Whether anything renders or will, or may where jobs are unknown.

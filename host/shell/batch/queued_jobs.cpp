@@ -45,7 +45,8 @@ Answer ask(Words words) {
 }
 
 bool names_unknown_job(const BatchSystem& system, const Answer& answer) {
-  return answer.complaints.find(system.unknown) != std::string::npos;
+  return std::ranges::any_of(
+      system.unknown, [&](const std::string& part) { return answer.complaints.find(part) != std::string::npos; });
 }
 
 std::string lower(std::string text) {
@@ -91,18 +92,17 @@ std::string number_in(const std::string& answer) {
 std::string short_limit_doubt(const BatchJob& job) {
   const auto seconds = seconds_of(job.time);
   if (!seconds || *seconds == 0 || *seconds >= kShort) return "";
-  return "the time limit " + job.time + " is " + document::formatted("%.3g", static_cast<double>(*seconds) / 60) +
-         " minutes, and the job is asked to end 2 to 3 minutes before it: it may never come to a frame; give 10 "
-         "minutes or more";
+  return "the time limit " + job.time + " is " + document::counted(*seconds, "second") +
+         ", and the job is asked to end 2 to 3 minutes before it: it may never come to a frame; give 10 minutes or more";
 }
 
 // "main*|4|0/8/0/8", of which the star marks the default and the last number is all processors; "": it has enough.
-std::string partition_doubt(const std::string& line, const BatchJob& job) {
+std::string partition_doubt(const std::string& line, const BatchJob& job, const std::string& partition) {
   const Words fields = fields_of(line, '|');
   if (fields.size() != 3) return "";
   const bool is_default = fields[0].ends_with('*');
   const std::string name = fields[0].substr(0, fields[0].size() - is_default);
-  if (job.partition.empty() ? !is_default : name != job.partition) return "";
+  if (partition.empty() ? !is_default : name != partition) return "";
   const auto machines = document::number_in<std::uint32_t>(fields[1]);
   const auto processors = document::number_in<std::uint32_t>(fields[2].substr(fields[2].rfind('/') + 1));
   if (!machines || !processors || (job.machines <= *machines && job.tasks <= *processors)) return "";
@@ -112,12 +112,20 @@ std::string partition_doubt(const std::string& line, const BatchJob& job) {
          ": it may wait for ever; give smaller --nodes or --tasks";
 }
 
+// By words of a person that count more than what MARS asks for.
+bool chooses_itself(const BatchJob& job) {
+  return std::ranges::any_of(job.more, [](const std::string& word) {
+    const auto begins = [&](std::string_view option) { return word.starts_with(option); };
+    return begins("-p") || begins("-n") || begins("-N") || begins("--partition") || begins("--n");
+  });
+}
+
 }  // namespace
 
 std::string text_of(const QueuedJob& job) {
   std::string text = "job " + job.id + ": " + job.state;
   if (!job.machines.empty()) text += " on " + job.machines;
-  if (job.state == "running" && !job.time.empty()) text += " for " + job.time;
+  if ((!job.machines.empty() || job.state == "running") && !job.time.empty()) text += " for " + job.time;
   if (job.machines.empty() && !job.reason.empty()) text += " (" + job.reason + ")";
   if (job.restarts > 0) text += ", " + document::counted(job.restarts, "restart");
   return text;
@@ -159,7 +167,8 @@ std::string submit_job(const BatchSystem& system, const BatchJob& job) {
 
 std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all) {
   std::vector<QueuedJob> queued;
-  for (const auto& [system, numbers] : all) {
+  for (const auto& [of, numbers] : all) {
+    const BatchSystem& system = *of;
     const Answer answer = ask(words_for(system.list, numbers));
     if (!answer.ending.well() && !names_unknown_job(system, answer)) refuse(system.list.front(), answer);
     for (std::size_t i = static_cast<std::size_t>(system.header); i < answer.lines.size(); ++i) {
@@ -171,7 +180,8 @@ std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all) {
 }
 
 void cancel_jobs(const std::vector<Jobs>& all) {
-  for (const auto& [system, numbers] : all) {
+  for (const auto& [of, numbers] : all) {
+    const BatchSystem& system = *of;
     Words words = system.cancel;
     words.insert(words.end(), numbers.begin(), numbers.end());
     const Answer answer = ask(words);
@@ -181,9 +191,11 @@ void cancel_jobs(const std::vector<Jobs>& all) {
 
 std::vector<std::string> doubts_of(const BatchSystem& system, const BatchJob& job) {
   Words doubts{short_limit_doubt(job)};
-  if (system.name == "Slurm" && child::find_program("sinfo", own_path()))
+  if (system.name == "Slurm" && !chooses_itself(job) && child::find_program("sinfo", own_path())) {
+    const auto given = child::own_environment().value("SBATCH_PARTITION");
     for (const std::string& line : ask({"sinfo", "--noheader", "--format=%P|%D|%C"}).lines)
-      doubts.push_back(partition_doubt(line, job));
+      doubts.push_back(partition_doubt(line, job, job.partition.empty() ? given.value_or("") : job.partition));
+  }
   std::erase(doubts, "");
   return doubts;
 }

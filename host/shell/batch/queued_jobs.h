@@ -32,11 +32,12 @@ std::optional<QueuedJob> queued_job_of(const BatchSystem& system, const std::str
 // Whether a text may name a job: it is one word that is no option.
 bool is_job_number(const std::string& text);
 
-// Those with these numbers. All throw Failure where the command is not there or refuses, with its own words.
 struct Jobs {
-  const BatchSystem& system;
+  const BatchSystem* system;
   std::vector<std::string> numbers;
 };
+
+// All that follow throw Failure where the system's program is not there or refuses, with its own words.
 
 // Returns the job's number.
 std::string submit_job(const BatchSystem& system, const BatchJob& job);
@@ -44,8 +45,7 @@ std::string submit_job(const BatchSystem& system, const BatchJob& job);
 std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all);
 void cancel_jobs(const std::vector<Jobs>& all);
 
-// Why a job of Slurm may never run, or never come to a frame, each as a line; none where nothing is known. `partition`:
-// where the job has none, the default.
+// Why the job may never run, or never come to a frame, each as a line; none where nothing is known.
 std::vector<std::string> doubts_of(const BatchSystem& system, const BatchJob& job);
 
 }  // namespace mars::batch

@@ -72,7 +72,7 @@ std::vector<Jobs> jobs_of(const fs::path& frames) {
   std::vector<Jobs> all;
   for (const BatchSystem& system : batch_systems()) {
     std::vector<std::string> numbers = RememberedJobs(frames, system).numbers();
-    if (!numbers.empty()) all.push_back({system, std::move(numbers)});
+    if (!numbers.empty()) all.push_back({&system, std::move(numbers)});
   }
   return all;
 }
