@@ -8,6 +8,7 @@
 #include "host/content/document/text.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/shell/batch/remembered_jobs.h"
+#include "host/shell/batch/state_text.h"
 #include "host/shell/launch/display.h"
 
 namespace mars::batch {
@@ -38,6 +39,9 @@ std::vector<FolderState::Run> runs_in(const fs::path& folder) {
 void count_frames(FolderState& state, const fs::path& folder) {
   const sinks::Manifest manifest = sinks::read_manifest(folder);
   state.film = manifest.film;
+  state.used = manifest.usage;
+  for (const FolderState::Run& run : state.runs)
+    if (run.status) state.used += run.status->used;
   state.of = static_cast<std::uint32_t>(manifest.frames.size());
   state.there = static_cast<std::uint32_t>(manifest.frames.size() -
                                            sinks::missing_frames(folder, manifest, manifest.frames).size());
@@ -119,6 +123,7 @@ FolderState look_at(const fs::path& folder) {
 
 std::vector<std::string> lines_of(const FolderState& state, bool machines) {
   std::vector<std::string> lines{folder_line(state)};
+  if (const std::string used = text_of(state.used); machines && !used.empty()) lines.push_back("used: " + used);
   for (const QueuedJob& job : state.jobs) lines.push_back(text_of(job));
   if (!state.no_jobs.empty()) lines.push_back("jobs are unknown: " + state.no_jobs);
   for (const FolderState::Run& run : state.runs) {

@@ -30,6 +30,7 @@ struct FolderState {
   std::uint32_t of = 0;     // that runs were asked for so far
   std::vector<Run> runs;
   std::vector<QueuedJob> jobs;
+  sinks::Usage used;    // by all runs so far
   std::string no_jobs;  // why they are unknown
 
   bool complete() const { return of > 0 && there == of; }
@@ -40,8 +41,8 @@ struct FolderState {
 // Throws Failure where there is neither a manifest nor a job, or one of their files is damaged.
 FolderState look_at(const std::filesystem::path& folder);
 
-// A line for the folder, each job and each run; with `machines` also below each run a line for each of its machines and
-// for its last warnings.
+// A line for the folder, each job and each run; with `machines` also one for what was used, and below each run a line
+// for each of its machines and for its last warnings.
 std::vector<std::string> lines_of(const FolderState& state, bool machines);
 
 }  // namespace mars::batch
