@@ -325,7 +325,7 @@ void write_report(const RenderJob& job, const film::CompiledFilm& film, const fa
   const farm::HostMemory memory = report.node_files == report.frames.size() ? farm::where_nodes_write(shared) : shared;
   const wire::FilmSettings& settings = film.view().settings();
   const report::ReportHead head{job.film,       film.checksum(), job.backend, job.arguments,
-                                settings.width, settings.height, memory,     usage};
+                                settings.width, settings.height, memory,      usage};
   document::write_whole_file(job.report, report::report_text(head, report));
 }
 

@@ -59,9 +59,7 @@ std::optional<Usage> add_to_manifest(const Manifest& rendered, const Usage& used
   return all.usage;
 }
 
-bool is_whole(const Manifest& rendered) {
-  return std::ranges::none_of(rendered.pixel_hashes, &std::string::empty);
-}
+bool is_whole(const Manifest& rendered) { return std::ranges::none_of(rendered.pixel_hashes, &std::string::empty); }
 
 // Nothing of a run that has left no status.
 Usage usage_of(const RunFiles& run, const Manifest& rendered) {

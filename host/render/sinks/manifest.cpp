@@ -22,10 +22,9 @@ namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
 constexpr auto kKeys = std::to_array<std::string_view>(
-    {"version", "sum",          "film",        "checksum",      "width",        "height",  "format",
-     "rate",    "film_frames",  "frames",      "pixel_version", "pixel_hashes", "sources", "options",
-     "names",   "first_number", "compression", "window",        "pixel_aspect", "ocio",    "layers",
-     "usage"});
+    {"version",     "sum",    "film",          "checksum",     "width",   "height",  "format", "rate",
+     "film_frames", "frames", "pixel_version", "pixel_hashes", "sources", "options", "names",  "first_number",
+     "compression", "window", "pixel_aspect",  "ocio",         "layers",  "usage"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {

@@ -94,8 +94,7 @@ std::string head_text(const BatchSystem& system, const BatchJob& job, const Valu
   for (const std::string& option : system.options)
     if (const Filled line = filled(option, values); line.complete) text += line.text + "\n";
   if (job.parts.size() > 1) text += "#SBATCH --array=0-" + std::to_string(job.parts.size() - 1) + "\n";
-  if (!job.more.empty())
-    text += "# mars submit calls " + system.programs.front() + " with: " + quoted(job.more) + "\n";
+  if (!job.more.empty()) text += "# mars submit calls " + system.programs.front() + " with: " + quoted(job.more) + "\n";
   if (!job.prologue.empty()) text += job.prologue + (job.prologue.ends_with('\n') ? "" : "\n");
   return text;
 }

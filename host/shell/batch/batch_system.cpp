@@ -51,8 +51,8 @@ BatchSystem pbs() {
           .folder = ".pbs",
           .script_name = "job.sh",
           .output = "",
-          .options = {"#PBS -N mars", "#PBS -l select={nodes}:ncpus={each}:mpiprocs={each}",
-                      "#PBS -l walltime={clock}", "#PBS -q {partition}", "#PBS -r y"},
+          .options = {"#PBS -N mars", "#PBS -l select={nodes}:ncpus={each}:mpiprocs={each}", "#PBS -l walltime={clock}",
+                      "#PBS -q {partition}", "#PBS -r y"},
           .setup = R"(cd "$PBS_O_WORKDIR" || exit
 job=film  # under one name, though each start is another job
 tasks() { cat "$PBS_NODEFILE"; }
@@ -128,7 +128,8 @@ const std::vector<BatchSystem>& batch_systems() {
 
 BatchSystem batch_system_in(const std::string& path) {
   const auto is_there = [&](const BatchSystem& system) {
-    return std::ranges::all_of(system.programs, [&](const auto& each) { return child::find_program(each, path).has_value(); });
+    return std::ranges::all_of(system.programs,
+                               [&](const auto& each) { return child::find_program(each, path).has_value(); });
   };
   const auto found = std::ranges::find_if(batch_systems(), is_there);
   if (found != batch_systems().end()) return *found;

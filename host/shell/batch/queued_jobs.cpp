@@ -93,7 +93,8 @@ std::string short_limit_doubt(const BatchJob& job) {
   const auto seconds = seconds_of(job.time);
   if (!seconds || *seconds == 0 || *seconds >= kShort) return "";
   return "the time limit " + job.time + " is " + document::counted(*seconds, "second") +
-         ", and the job is asked to end 2 to 3 minutes before it: it may never come to a frame; give 10 minutes or more";
+         ", and the job is asked to end 2 to 3 minutes before it: it may never come to a frame; give 10 minutes or "
+         "more";
 }
 
 // "main*|4|0/8/0/8", of which the star marks the default and the last number is all processors; "": it has enough.

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kLongestNumber = 64;    // bytes
+constexpr std::size_t kLongestNumber = 64;        // bytes
 constexpr std::uintmax_t kLongestList = 1 << 20;  // bytes
 
 std::vector<std::string> numbers_in(const std::string& text) {

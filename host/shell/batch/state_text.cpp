@@ -21,8 +21,12 @@ std::string word_of(const FolderState& state) {
 }
 
 ordered_json json_of(const QueuedJob& job) {
-  return {{"job", job.id},           {"state", job.state},       {"time", job.time},
-          {"restarts", job.restarts}, {"machines", job.machines}, {"reason", job.reason}};
+  return {{"job", job.id},
+          {"state", job.state},
+          {"time", job.time},
+          {"restarts", job.restarts},
+          {"machines", job.machines},
+          {"reason", job.reason}};
 }
 
 ordered_json json_of(const FolderState::Run& run) {

@@ -30,7 +30,8 @@ void cancel(const std::string& folder) {
   print_state(folder);
 }
 
-cli::Command add(cli::Command app, const char* name, const char* purpose, const std::function<void(const std::string&)>& act) {
+cli::Command add(cli::Command app, const char* name, const char* purpose,
+                 const std::function<void(const std::string&)>& act) {
   const auto folder = std::make_shared<std::string>();
   const cli::Command command = app.add_command(name, purpose);
   command.add("DIR", *folder, "The folder given to mars render or mars submit with -o. Example: build/demo").required();
@@ -51,14 +52,13 @@ void print_status(const std::string& folder, const StatusForm& form) {
 
 void add_status(cli::Command app) {
   const auto form = std::make_shared<StatusForm>();
-  const cli::Command command =
-      add(app, "status", "Print the progress of the runs and jobs of a folder",
-          [form](const std::string& folder) { print_status(folder, *form); });
+  const cli::Command command = add(app, "status", "Print the progress of the runs and jobs of a folder",
+                                   [form](const std::string& folder) { print_status(folder, *form); });
   const cli::Option json = command.add_flag("--json", form->json, "Print one JSON object. Example: --json");
   const cli::Option metrics = command.add_flag(
       "--metrics", form->metrics, "Print metrics as OpenMetrics text, for a textfile collector. Example: --metrics");
-  const cli::Option comment = command.add_flag(
-      "--comment", form->comment, "Print one line, for the comment of a batch job. Example: --comment");
+  const cli::Option comment = command.add_flag("--comment", form->comment,
+                                               "Print one line, for the comment of a batch job. Example: --comment");
   json.excludes(metrics).excludes(comment);
   metrics.excludes(comment);
 }

@@ -37,8 +37,8 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMostMachines = 1 << 16;
 constexpr std::uint32_t kMostTasks = 1 << 20;
-constexpr std::uint32_t kMostParts = 1000;  // Slurm's MaxArraySize is 1001 by default
-constexpr double kWorthSaying = 0.005;      // of more work
+constexpr std::uint32_t kMostParts = 1000;            // Slurm's MaxArraySize is 1001 by default
+constexpr double kWorthSaying = 0.005;                // of more work
 constexpr std::uintmax_t kLongestPrologue = 1 << 20;  // bytes
 
 struct SubmitWords {
@@ -96,8 +96,10 @@ void add_job_options(cli::Command command, SubmitWords& words) {
       .range(std::uint32_t{1}, kMostParts);
   command
       .add("--sbatch", words.sbatch,
-           "More options for sbatch, or for qsub, bsub or flux batch, quoted as one word of the shell; they override the "
-           "options above and those of the script and the environment. You can give this option several times. Example: --sbatch \"--account=physics "
+           "More options for sbatch, or for qsub, bsub or flux batch, quoted as one word of the shell; they override "
+           "the "
+           "options above and those of the script and the environment. You can give this option several times. "
+           "Example: --sbatch \"--account=physics "
            "--qos=long\"")
       .repeated()
       .type("WORDS")
@@ -196,7 +198,8 @@ void check_system(const SubmitWords& words, const batch::BatchSystem& system) {
   if (!is_slurm && words.parts > 1)
     throw cli::UsageError("--array", "only Slurm gets an array of jobs from mars; leave it out for " + system.name);
   if (!is_slurm && !words.job.time.empty() && batch::seconds_of(words.job.time).value_or(0) == 0)
-    throw cli::UsageError("--time", "'" + words.job.time + "' is no time as 8:00:00, and " + system.name + " needs one");
+    throw cli::UsageError("--time",
+                          "'" + words.job.time + "' is no time as 8:00:00, and " + system.name + " needs one");
 }
 
 void print_number(const SubmitWords& words, const std::string& number, const batch::ArrayParts& parts) {

@@ -91,8 +91,9 @@ TEST(BatchScript, BeginsWithThePrologue) {
   BatchJob job = some_job();
   job.more = {"--qos=high", "--comment=two words"};
   job.prologue = "module load gcc";
-  expect_in(script_of(job), "USR1@120\n# mars submit calls sbatch with: --qos=high '--comment=two words'\n"
-                            "module load gcc\n# Renders.\n");
+  expect_in(script_of(job),
+            "USR1@120\n# mars submit calls sbatch with: --qos=high '--comment=two words'\n"
+            "module load gcc\n# Renders.\n");
 }
 
 TEST(BatchScript, HasTheWordsOfEachSystem) {
@@ -103,11 +104,13 @@ TEST(BatchScript, HasTheWordsOfEachSystem) {
   job.partition = "long";
   job.more = {"-A", "physics"};
   const std::string of_pbs = script_of(job, pbs());
-  expect_in(of_pbs, "#!/bin/bash\n#PBS -N mars\n#PBS -l select=4:ncpus=8:mpiprocs=8\n#PBS -l walltime=8:00:00\n"
-                    "#PBS -q long\n#PBS -r y\n# mars submit calls qsub with: -A physics\n");
+  expect_in(of_pbs,
+            "#!/bin/bash\n#PBS -N mars\n#PBS -l select=4:ncpus=8:mpiprocs=8\n#PBS -l walltime=8:00:00\n"
+            "#PBS -q long\n#PBS -r y\n# mars submit calls qsub with: -A physics\n");
   expect_in(of_pbs, "film=(timeout --foreground --signal=TERM 28680 mars render \"$@\" --hostfile \"$hosts\")\n");
-  expect_in(of_pbs, "queue_again() { qsub -o /films/out/.pbs/ -j oe -A physics /films/out/.pbs/job.sh >>\"$kept/again\"; "
-                    "}\n");
+  expect_in(of_pbs,
+            "queue_again() { qsub -o /films/out/.pbs/ -j oe -A physics /films/out/.pbs/job.sh >>\"$kept/again\"; "
+            "}\n");
   expect_in(of_pbs, "They end.\nexit\n");
   expect_in(script_of(job, lsf()), "#BSUB -n 30\n#BSUB -R \"span[ptile=8]\"\n#BSUB -W 480\n#BSUB -q long\n");
   expect_in(script_of(job, flux()), "# flux: --nodes=4\n# flux: --nslots=30\n# flux: --time-limit=28800s\n");
@@ -121,8 +124,8 @@ TEST(BatchScript, IsSubmittedByTheSystemsProgram) {
   BatchJob job = some_job();
   job.kept = "/50%/.slurm";
   job.more = {"--qos=high"};
-  EXPECT_EQ(submit_words(slurm(), job), (Words{"sbatch", "--parsable", "--output=/50%%/.slurm/%j.out", "--qos=high",
-                                               "/50%/.slurm/job.sbatch"}));
+  EXPECT_EQ(submit_words(slurm(), job),
+            (Words{"sbatch", "--parsable", "--output=/50%%/.slurm/%j.out", "--qos=high", "/50%/.slurm/job.sbatch"}));
   job.parts = {film::FrameSet("0"), film::FrameSet("1")};
   EXPECT_EQ(submit_words(slurm(), job)[2], "--output=/50%%/.slurm/%A_%a.out");
   EXPECT_EQ(submit_words(flux(), job),

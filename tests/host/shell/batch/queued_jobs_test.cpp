@@ -40,7 +40,10 @@ TEST(QueuedJob, SaysWhereItRunsOrWhyItWaits) {
 }
 
 TEST(JobNumber, IsOneWordThatIsNoOption) {
-  for (const char* number : {"12", "123.pbs", "123[].pbs", "\xC6\x92" "2abc"}) EXPECT_TRUE(is_job_number(number)) << number;
+  for (const char* number : {"12", "123.pbs", "123[].pbs",
+                             "\xC6\x92"
+                             "2abc"})
+    EXPECT_TRUE(is_job_number(number)) << number;
   for (const char* number : {"", "-12", "12; rm", "1,2", "1\n2"}) EXPECT_FALSE(is_job_number(number)) << number;
 }
 
