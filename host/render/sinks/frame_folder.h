@@ -98,7 +98,7 @@ class FrameFolder {
   void show_status(std::function<Status()> status);
   // More that was used for the run's frames: bytes of files that nodes wrote, faces that it joins. From any thread.
   void note_used(const Usage& used);
-  // Of all runs of the folder, once this one is finished.
+  // All runs of the folder together, once this one is finished.
   Usage whole_usage() const { return whole_usage_.value_or(Usage()); }
 
   // What the frame's file says (frame_mark.h).

@@ -1,5 +1,5 @@
-// What runs have used for a folder of frames, for those who count it. A run's own is in its .status while it lives, the
-// sum of all that have ended in frames.json.
+// The processor time and storage that runs have used for a folder of frames, for those who count it. A run's own is in
+// its .status while it lives, the sum of all that have ended in frames.json.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ std::string output_of(const BatchSystem& system, const BatchJob& job) {
   return escaped(job.kept.string()) + "/" + (job.parts.size() > 1 ? "%A_%a.out" : system.output);
 }
 
-// What has no value here is "".
+// A name without a value has the text "".
 Values values_of(const BatchSystem& system, const BatchJob& job) {
   Values values = {{"nodes", std::to_string(job.machines)},
                    {"tasks", std::to_string(job.tasks)},

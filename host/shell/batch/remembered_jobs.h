@@ -34,7 +34,7 @@ class RememberedJobs {
   std::filesystem::path folder_;
 };
 
-// Of all batch systems that have any there.
+// The lists of all batch systems that have jobs there.
 std::vector<Jobs> jobs_of(const std::filesystem::path& frames);
 
 }  // namespace mars::batch

@@ -1,4 +1,4 @@
-// What goes on in a folder of frames, for programs.
+// The state of a folder of frames as texts for programs.
 #pragma once
 
 #include <string>
