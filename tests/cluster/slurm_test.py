@@ -149,9 +149,10 @@ class Jobs(ClusterTest):
         return not re.search(rf"\b{host}\b", self.on("n0", "mars", "status", "out").stdout)
 
     def test_z_the_first_machine_is_lost(self):
+        """The second one notices, without variables of a person's shell."""
         for host in HOSTS:
             self.crawl(host)
-        job = self.submit("out")
+        job = self.submit("out", "--sbatch", "--export=NONE")
         self.wait_for_frames("out")
         lost = self.facts(job)["BatchHost"]
         testbed("kill", lost)

@@ -49,10 +49,8 @@ Values values_of(const BatchSystem& system, const BatchJob& job) {
                    {"partition", job.partition},
                    {"script", (job.kept / system.script_name).string()},
                    {"output", output_of(system, job)}};
-  for (const char* name : {"clock", "minutes", "seconds", "timeout", "again"}) values[name] = "";
+  for (const char* name : {"minutes", "seconds", "timeout", "again"}) values[name] = "";
   if (const auto seconds = seconds_of(job.time)) {
-    values["clock"] = document::formatted("%d:%02d:%02d", static_cast<int>(*seconds / 3600),
-                                          static_cast<int>(*seconds / 60 % 60), static_cast<int>(*seconds % 60));
     values["minutes"] = std::to_string((*seconds + 59) / 60);
     values["seconds"] = std::to_string(*seconds);
     const std::uint64_t left = *seconds > kBefore ? *seconds - kBefore : 1;

@@ -8,7 +8,7 @@
 namespace mars::batch {
 
 // In its texts {nodes} is the number of machines, {tasks} of processes, {each} of processes on a machine, {time} the
-// time limit as it was given, {clock}, {minutes} and {seconds} the same in other units, {partition} a queue's name,
+// time limit as it was given, {minutes} and {seconds} the same in other units, {partition} a queue's name,
 // {script} the script's file, {output} where the job prints, {more} a person's words, {jobs} numbers of jobs, {again}
 // the words by which a job submits its script again, {timeout} what ends a program before the time limit. A line is
 // left out where what it names is not known.

@@ -105,7 +105,7 @@ TEST(BatchScript, HasTheWordsOfEachSystem) {
   job.more = {"-A", "physics"};
   const std::string of_pbs = script_of(job, pbs());
   expect_in(of_pbs,
-            "#!/bin/bash\n#PBS -N mars\n#PBS -l select=4:ncpus=8:mpiprocs=8\n#PBS -l walltime=8:00:00\n"
+            "#!/bin/bash\n#PBS -N mars\n#PBS -l select=4:ncpus=8:mpiprocs=8\n#PBS -l walltime=28800\n"
             "#PBS -q long\n#PBS -r y\n# mars submit calls qsub with: -A physics\n");
   expect_in(of_pbs, "film=(timeout --foreground --signal=TERM 28680 mars render \"$@\" --hostfile \"$hosts\")\n");
   expect_in(of_pbs,
