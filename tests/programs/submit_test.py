@@ -349,8 +349,8 @@ OTHERS = {
                      "echo 'Job <1> is submitted to queue <normal>.'",
              "bjobs": "echo '1|RUN|20 second(s)|3*n1|-|'"},
             {"LSB_JOBID": "1", "LSB_HOSTS": "localhost localhost localhost"}, "1", "running on 3*n1 for 20 second(s)"),
-    "flux": ({"flux": NUMBERED + "case $1 in hostlist) echo localhost;; jobs) echo 'f1|RUN|20s|n1|';; "
-                      '*) echo "f$(wc -l <jobs)";; esac'}, {}, "f1", "running on n1 for 20s")}
+    "flux": ({"flux": "case $1 in hostlist) echo localhost; exit;; jobs) echo 'f1|RUN|20s|n1|'; exit;; esac; "
+                      + NUMBERED + 'echo "f$(wc -l <jobs)"'}, {}, "f1", "running on n1 for 20s")}
 
 
 @needs_mpi
@@ -362,9 +362,8 @@ class OtherSystems(SideBySide, FakeSlurm):
         programs, *_ = OTHERS[system]
         for name, script in programs.items():
             self.program(name, script)
-        for name in ["sh", "cp"]:
-            if not (self.folder / "bin" / name).exists():
-                (self.folder / "bin" / name).symlink_to(shutil.which(name))
+        if not (self.folder / "bin/sh").exists():
+            (self.folder / "bin/sh").symlink_to(shutil.which("sh"))
         self.environment["PATH"] = f"{self.folder}/bin"
         self.write("tasks", "localhost\n" * 3)
         self.write("film.json", film)
@@ -379,6 +378,7 @@ class OtherSystems(SideBySide, FakeSlurm):
     def remove_programs(self):
         for name in [name for programs, *_ in OTHERS.values() for name in programs]:
             (self.folder / "bin" / name).unlink(missing_ok=True)
+        (self.folder / "jobs").unlink(missing_ok=True)
 
     def test_a_film(self):
         film = spinning_teapot(12, [64, 36])
@@ -401,7 +401,6 @@ class OtherSystems(SideBySide, FakeSlurm):
         """Two seconds after its start, which is two minutes before its limit, the job queues itself again."""
         for system, code, jobs in [("pbs", 0, ["1.pbs", "2.pbs"]), ("lsf", 85, ["1"]), ("flux", 0, ["f1", "f2"])]:
             with self.subTest(system):
-                (self.folder / "jobs").unlink(missing_ok=True)
                 self.assertClear(self.submit(system, spinning_teapot(LONG, [160, 90]), "--time", "2:02").stderr,
                                  "the time limit 2:02 is 122 seconds")
                 self.assertEqual(self.run_job(system).returncode, code)
