@@ -12,17 +12,17 @@ namespace {
 
 using Numbers = std::vector<std::string>;
 
-const BatchSystem& slurm() { return batch_systems()[0]; }
+const BatchSystem& first() { return batch_systems()[0]; }
 
 TEST(RememberedJobs, AreThoseThatWereAdded) {
   const test::TemporaryFolder folder;
-  const RememberedJobs jobs(folder / "out", slurm());
+  const RememberedJobs jobs(folder / "out", first());
   EXPECT_EQ(jobs.numbers(), Numbers{});
   jobs.write_script("sleep 1\n");
   EXPECT_EQ(document::read_file(folder / "out/.slurm/job.sbatch"), "sleep 1\n");
   jobs.add("12");
   jobs.add("15");
-  EXPECT_EQ(RememberedJobs(folder / "out", slurm()).numbers(), (Numbers{"12", "15"}));
+  EXPECT_EQ(RememberedJobs(folder / "out", first()).numbers(), (Numbers{"12", "15"}));
 }
 
 TEST(RememberedJobs, AreAlsoThoseThatJobsSubmitted) {
@@ -37,8 +37,8 @@ TEST(RememberedJobs, AreAlsoThoseThatJobsSubmitted) {
   EXPECT_EQ(jobs.numbers(), (Numbers{"12.pbs", "15.pbs", "13.pbs"}));
   jobs.write_script("");
   EXPECT_FALSE(std::filesystem::exists(folder / ".pbs/film.starts"));
-  RememberedJobs(folder.path(), slurm()).write_script("");
-  RememberedJobs(folder.path(), slurm()).add("7");
+  RememberedJobs(folder.path(), first()).write_script("");
+  RememberedJobs(folder.path(), first()).add("7");
   const std::vector<Jobs> all = jobs_of(folder.path());
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].numbers, Numbers{"7"});
@@ -47,7 +47,7 @@ TEST(RememberedJobs, AreAlsoThoseThatJobsSubmitted) {
 
 TEST(RememberedJobs, AreRefusedWhereTheFileIsDamaged) {
   const test::TemporaryFolder folder;
-  const RememberedJobs jobs(folder.path(), slurm());
+  const RememberedJobs jobs(folder.path(), first());
   jobs.write_script("");
   for (const char* text : {"{", "{}", R"({"jobs": [{"job": 12}]})", R"({"jobs": [{"job": "12; rm"}]})"}) {
     document::write_whole_file(folder / ".slurm/jobs.json", std::string_view(text));
