@@ -14,6 +14,7 @@ struct Usage {
   std::uint64_t bytes = 0;       // of frames' files, as written
   std::uint32_t restarts = 0;    // runs that ended before their last frame, so that another had to go on
 
+  double processor_hours() const { return processor_seconds / 3600; }
   bool operator==(const Usage&) const = default;
   Usage& operator+=(const Usage& more);
 };

@@ -51,8 +51,8 @@ BatchSystem pbs() {
           .folder = ".pbs",
           .script_name = "job.sh",
           .output = "",
-          .options = {"#PBS -N mars", "#PBS -l select={nodes}:ncpus={each}:mpiprocs={each}", "#PBS -l walltime={seconds}",
-                      "#PBS -q {partition}", "#PBS -r y"},
+          .options = {"#PBS -N mars", "#PBS -l select={nodes}:ncpus={each}:mpiprocs={each}",
+                      "#PBS -l walltime={seconds}", "#PBS -q {partition}", "#PBS -r y"},
           .setup = R"(cd "$PBS_O_WORKDIR" || exit
 job=film  # under one name, though each start is another job
 tasks() { cat "$PBS_NODEFILE"; }

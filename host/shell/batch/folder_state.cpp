@@ -8,7 +8,6 @@
 #include "host/content/document/text.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/shell/batch/remembered_jobs.h"
-#include "host/shell/batch/state_text.h"
 #include "host/shell/launch/display.h"
 
 namespace mars::batch {
@@ -119,6 +118,15 @@ FolderState look_at(const fs::path& folder) {
   state.runs = runs_in(folder);
   if (jobs.empty() || fs::exists(folder / "frames.json")) count_frames(state, folder);
   return state;
+}
+
+std::string text_of(const sinks::Usage& used) {
+  if (used == sinks::Usage()) return "";
+  const double megabytes = static_cast<double>(used.bytes) / 1e6;
+  return document::formatted("%.2f processor hours, ", used.processor_hours()) +
+         (megabytes < 1000 ? document::formatted("%.1f MB", megabytes)
+                           : document::formatted("%.1f GB", megabytes / 1000)) +
+         " written, " + document::counted(used.restarts, "restart");
 }
 
 std::vector<std::string> lines_of(const FolderState& state, bool machines) {

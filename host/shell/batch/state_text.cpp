@@ -11,8 +11,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr double kHour = 3600;  // seconds
-
 std::string word_of(const FolderState& state) {
   if (state.complete()) return "complete";
   if (std::ranges::any_of(state.runs, &FolderState::Run::lives)) return "rendering";
@@ -68,7 +66,7 @@ std::string json_of(const FolderState& state) {
       {"state", word_of(state)},
       {"frames", {{"done", state.there}, {"of", state.of}}},
       {"usage",
-       {{"processor_hours", document::rounded_to(state.used.processor_seconds / kHour, 6)},
+       {{"processor_hours", document::rounded_to(state.used.processor_hours(), 6)},
         {"bytes", state.used.bytes},
         {"restarts", state.used.restarts}}},
       {"jobs", list_of(state.jobs)},
@@ -102,15 +100,6 @@ std::string comment_of(const FolderState& state) {
   const std::string used = text_of(state.used);
   return "mars: " + std::to_string(state.there) + " of " + document::counted(state.of, "frame") +
          (used.empty() ? "" : ", " + used) + "\n";
-}
-
-std::string text_of(const sinks::Usage& used) {
-  if (used == sinks::Usage()) return "";
-  const double megabytes = static_cast<double>(used.bytes) / 1e6;
-  return document::formatted("%.2f processor hours, ", used.processor_seconds / kHour) +
-         (megabytes < 1000 ? document::formatted("%.1f MB", megabytes)
-                           : document::formatted("%.1f GB", megabytes / 1000)) +
-         " written, " + document::counted(used.restarts, "restart");
 }
 
 }  // namespace mars::batch

@@ -16,7 +16,4 @@ std::string metrics_of(const FolderState& state);
 // One line for the comment of a batch job, without quotation marks.
 std::string comment_of(const FolderState& state);
 
-// "12.34 processor hours, 1.2 GB written, 1 restart"; "" where nothing was used.
-std::string text_of(const sinks::Usage& used);
-
 }  // namespace mars::batch
