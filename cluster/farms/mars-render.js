@@ -11,10 +11,14 @@ const JOB_TYPE = {
 
 function compileJob(job) {
   const settings = job.settings;
+  const verify = author.Task("verify", "misc");
+  verify.addCommand(author.Command("exec", { exe: "mars", args: ["verify", settings.folder] }));
   for (const frames of frameChunker(settings.frames, settings.chunk_size)) {
     const task = author.Task(`render-${frames}`, "misc");
     const args = ["render", settings.film, "-o", settings.folder, "--frames", frames, "--restarts", "0"];
     task.addCommand(author.Command("exec", { exe: "mars", args: args }));
     job.addTask(task);
+    verify.addDependency(task);
   }
+  job.addTask(verify);
 }

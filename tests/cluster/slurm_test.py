@@ -108,6 +108,20 @@ class Jobs(ClusterTest):
         self.assertIn("frames=(0-59 60-119)", script)
         self.assertEqual(self.facts(f"{job}_0")["Restarts"], "0")
 
+    def test_an_environment_that_is_not_handed_on(self):
+        """Without PATH no step of a job starts; that is no loss of machines."""
+        job = self.submit("out", "--sbatch", "--export=NONE")
+        self.assertCompletes("out")
+        self.wait_for(job, lambda facts: facts["JobState"] == "COMPLETED")
+        self.assertEqual(self.facts(job)["Restarts"], "0")
+
+    def test_starts_without_a_new_frame_end(self):
+        self.write("stops.sh", "mars() { sleep 1; kill -USR1 $$; sleep 60; return 1; }\n")
+        job = self.submit("out", "--restarts", 1, "--prologue", "stops.sh")
+        self.wait_for(job, lambda facts: facts["JobState"] == "FAILED", 2 * SLURM_SECONDS)
+        self.assertEqual(self.facts(job)["Restarts"], "1")
+        self.assertIn("restarts in a row without one: 1;", (self.folder / f"out/.slurm/{job}.out").read_text())
+
     def test_cancel(self):
         self.crawl("n1")
         job = self.submit("out")
@@ -135,9 +149,10 @@ class Jobs(ClusterTest):
         return not re.search(rf"\b{host}\b", self.on("n0", "mars", "status", "out").stdout)
 
     def test_z_the_first_machine_is_lost(self):
+        """The second one notices, without variables of a person's shell."""
         for host in HOSTS:
             self.crawl(host)
-        job = self.submit("out")
+        job = self.submit("out", "--sbatch", "--export=NONE")
         self.wait_for_frames("out")
         lost = self.facts(job)["BatchHost"]
         testbed("kill", lost)

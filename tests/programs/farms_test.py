@@ -16,7 +16,8 @@ FRAMES, CHUNK = 6, 4
 # Like a JavaScript engine of Flamenco: what job types call, and the tasks as JSON.
 FLAMENCO = """
 const tasks = [];
-globalThis.author = {Task: (name) => ({name, commands: [], addCommand(command) { this.commands.push(command); }}),
+globalThis.author = {Task: (name) => ({name, commands: [], after: [], addCommand(command) { this.commands.push(command); },
+                                       addDependency(task) { this.after.push(task.name); }}),
                      Command: (name, parameters) => ({name, parameters})};
 globalThis.frameChunker = (frames, size) => {
   const [first, last] = frames.split("-").map(Number), chunks = [];
@@ -55,11 +56,13 @@ class Farms(ProgramTest):
         self.assertEqual(task.returncode, code, out + error)
         return out, error
 
-    def run_all_at_once(self, commands):
+    def run_all_at_once(self, commands, last):
+        """The last command alone, after all others."""
         self.assertGreater(len(commands), 1)
         for task in [self.start(words) for words in commands]:
             self.ends(task)
-        self.assertIn(f"{FRAMES} frames", self.succeed("mars", "verify", self.frames))
+        self.assertEqual(last[:2], ["mars", "verify"])
+        self.assertIn(f"{FRAMES} frames", self.succeed(*last))
 
     def moved(self, text):
         return text.replace("/films/film.json", str(self.film)).replace("/films/frames", str(self.frames))
@@ -71,25 +74,39 @@ class Farms(ProgramTest):
         self.assertGreater(int(job["ChunkSize"]), 1)
         with_frames = lambda first, last: plugin["Arguments"].replace("<STARTFRAME>", str(first)).replace(
             "<ENDFRAME>", str(last))
+        last, verifies = pairs(FARMS / "deadline-verify.job"), pairs(FARMS / "deadline-verify.plugin")
+        self.assertEqual((last["Plugin"], verifies["Executable"]), ("CommandLine", "mars"))
+        self.assertIn("JobDependencies", last)
         self.run_all_at_once([["mars", *shlex.split(self.moved(with_frames(*chunk)))]
-                              for chunk in chunks(0, FRAMES - 1, CHUNK)])
+                              for chunk in chunks(0, FRAMES - 1, CHUNK)],
+                             ["mars", *shlex.split(self.moved(verifies["Arguments"]))])
 
     def test_opencue(self):
         layers = []
         outline, shell = types.ModuleType("outline"), types.ModuleType("outline.modules.shell")
         outline.Outline = lambda name: types.SimpleNamespace(name=name, add_layer=layers.append)
         outline.cuerun = types.SimpleNamespace(launch=lambda job, use_pycuerun: None)
-        shell.Shell = lambda name, **options: types.SimpleNamespace(name=name, **options)
+        after = []
+        shell.Shell = lambda name, **options: types.SimpleNamespace(name=name, depend_all=after.append, **options)
         for name, module in (("outline", outline), ("outline.modules", types.ModuleType("outline.modules")),
                              ("outline.modules.shell", shell)):
             sys.modules[name] = module
         script = {"__name__": "opencue"}
         exec((FARMS / "opencue.py").read_text(), script)
         script["main"](str(self.film), str(self.frames), f"0-{FRAMES - 1}", str(CHUNK))
-        layer, = layers
+        layer, verify = layers
+        self.assertEqual(after, [layer])
         self.assertEqual((layer.range, layer.chunk), (f"0-{FRAMES - 1}", CHUNK))
         self.run_all_at_once([[word.replace("#FRAMESPEC#", frames) for word in layer.command]
-                              for frames in (f"0-{FRAMES - 1}x2", f"1-{FRAMES - 3}x2", f"{FRAMES - 1}")])
+                              for frames in (f"0-{FRAMES - 1}x2", f"1-{FRAMES - 3}x2", f"{FRAMES - 1}")],
+                             verify.command)
+
+    def test_opencue_without_arguments_says_its_use(self):
+        for words in [[], ["film.json", "frames"], ["film.json", "frames", "0-9", "many"]]:
+            done = subprocess.run([sys.executable, FARMS / "opencue.py", *words], stderr=subprocess.PIPE, text=True)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("opencue.py FILM DIR FRAMES [CHUNK]", done.stderr)
+            self.assertNotIn("Traceback", done.stderr)
 
     @needs("node")
     def test_flamenco(self):
@@ -97,9 +114,12 @@ class Farms(ProgramTest):
         job = json.loads(subprocess.run(["node", "-e", FLAMENCO, FARMS / "mars-render.js", json.dumps(settings)],
                                         check=True, stdout=subprocess.PIPE, text=True).stdout)
         self.assertEqual({setting["key"] for setting in job["type"]["settings"]}, set(settings))
+        *parts, last = job["tasks"]
+        self.assertEqual(last["after"], [task["name"] for task in parts])
         commands = [command for task in job["tasks"] for command in task["commands"]]
         self.assertEqual({command["name"] for command in commands}, {"exec"})
-        self.run_all_at_once([[command["parameters"]["exe"], *command["parameters"]["args"]] for command in commands])
+        words = [[command["parameters"]["exe"], *command["parameters"]["args"]] for command in commands]
+        self.run_all_at_once(words[:-1], words[-1])
 
     def test_a_stopped_chunk_goes_on_and_says_how_far_it_is(self):
         film = self.write("long.json", endless_film())

@@ -1,11 +1,13 @@
 """Jobs of Slurm without Slurm: mars submit, status, watch and cancel, and the batch scripts, with programs of a few
-lines in place of Slurm's."""
+lines in place of Slurm's; and of PBS, LSF and Flux, whose scripts run on this machine."""
 
+import json
+import shutil
 import signal
 import subprocess
 
 from harness import (ENVIRONMENT, SECONDS, SOURCES, ProgramTest, SideBySide, complaints, main, needs,
-                     spinning_teapot, wait_until)
+                     needs_mpi, spinning_teapot, wait_until)
 
 LONG = 20000  # frames: more than are rendered while a test looks on
 SCRIPTS = [SOURCES / "cluster/slurm" / name for name in ("render.sbatch", "mpirun.sbatch", "srun.sbatch")]
@@ -24,6 +26,7 @@ class FakeSlurm(ProgramTest):
         super().setUp()
         self.environment = dict(ENVIRONMENT, PATH=f"{self.folder}/bin:{ENVIRONMENT['PATH']}")
         (self.folder / "bin").mkdir()
+        self.program("sinfo", "echo 'short|2|0/8/0/8'; echo 'main*|4|0/32/0/32'")
 
     def program(self, name, script):
         path = self.write(f"bin/{name}", "#!/bin/bash\n" + script + "\n")
@@ -55,7 +58,7 @@ class Commands(SideBySide, FakeSlurm):
         self.assertEqual(output, "job 12; follow it with: mars watch out\n")
         self.assertEqual(self.read("sbatch.words").splitlines(),
                          ["--parsable", f"--output={self.folder}/out/.slurm/%j.out", "--qos=high",
-                          "--comment=two words", "--time=5", "out/.slurm/job.sbatch"])
+                          "--comment=two words", "--time=5", f"{self.folder}/out/.slurm/job.sbatch"])
         script = self.read("submitted")
         for line in ["#SBATCH --nodes=2", "#SBATCH --ntasks=8", "#SBATCH --time=1:00:00", "#SBATCH --partition=long",
                      "#SBATCH --requeue", "# mars submit calls sbatch with: --qos=high '--comment=two words' --time=5",
@@ -70,7 +73,7 @@ class Commands(SideBySide, FakeSlurm):
     def test_the_script_is_the_one_of_the_cluster_folder(self):
         printed = self.submit("--print")
         self.assertFalse((self.folder / "out").exists())
-        ours = [line for line in printed.splitlines() if not line.startswith(("PATH=", "set -- "))]
+        ours = [line for line in printed.splitlines() if not line.startswith(("export PATH=", "kept=", "set -- "))]
         self.assertEqual(ours, SCRIPTS[0].read_text().splitlines())
         subprocess.run(["bash", "-n"], input=printed, text=True, check=True)
 
@@ -103,7 +106,39 @@ class Commands(SideBySide, FakeSlurm):
         self.refused(1, *submit, says="sbatch failed: sbatch: error: invalid partition specified: nix")
         (self.folder / "bin/sbatch").unlink()
         self.environment["PATH"] = f"{self.folder}/bin"
-        self.refused(1, *submit, says="Slurm's sbatch was not found")
+        self.refused(1, *submit, says="no batch system was found: none of sbatch of Slurm, qsub of PBS")
+
+    def test_what_a_program_asks_for(self):
+        self.write("modules.sh", "module load gcc\n")
+        self.assertEqual(self.submit("--parsable", "--prologue", "modules.sh"), "12\n")
+        script = self.read("submitted")
+        self.assertLess(script.index("\nmodule load gcc\n"), script.index("\nunset SLURM_EXPORT_ENV\n"))
+        self.refused(2, "submit", "film.json", "-o", "out", "--prologue", "none.sh", says="none.sh")
+        self.succeed("mars", "render", "film.json", "-o", "out", "--backend", "threads", "--quiet")
+        state = json.loads(self.slurm("status", "out", "--json"))
+        self.assertEqual((state["state"], state["frames"]), ("complete", {"done": 24, "of": 24}))
+        self.assertEqual([job["job"] for job in state["jobs"]], ["12"])
+        written = sum(path.stat().st_size for path in (self.folder / "out").glob("*.png"))
+        self.assertEqual((state["usage"]["bytes"], state["usage"]["restarts"]), (written, 0))
+        self.assertGreater(state["usage"]["processor_hours"], 0)
+        metrics = self.slurm("status", "out", "--metrics")
+        self.assertIn(f'mars_written_bytes{{folder="{self.folder}/out"}} {written}\n', metrics)
+        self.assertTrue(metrics.endswith("# EOF\n"))
+        self.assertRegex(self.slurm("status", "out", "--comment"),
+                         r"^mars: 24 of 24 frames, [0-9.]+ processor hours, [0-9.]+ MB written, 0 restarts\n$")
+        self.refused(2, "status", "out", "--json", "--comment", says="--comment")
+
+    def test_what_may_never_come_to_a_frame_is_said_before(self):
+        submit = lambda *words: self.run_program("mars", "submit", "film.json", "-o", "out", *words,
+                                                 env=self.environment).stderr
+        self.assertClear(submit("--time", 1), "the time limit 1 is 60 seconds")
+        self.assertClear(submit("--tasks", 33), "the partition main has 4 machines with 32 processors, and the job "
+                         "asks for 4 machines and 33 tasks")
+        self.assertClear(submit("--partition", "short"), "the partition short has 2 machines")
+        self.environment["SBATCH_PARTITION"] = "short"
+        self.assertClear(submit("--nodes", 3, "--tasks", 8), "the partition short has 2 machines")
+        self.assertEqual(submit("--nodes", 2, "--tasks", 8, "--time", 10), "")
+        self.assertEqual(submit("--sbatch", "-p other"), "")
 
     def test_a_folder_of_another_film(self):
         render = ["render", "--backend", "threads", "--quiet", "-o", "out"]
@@ -124,11 +159,12 @@ class Commands(SideBySide, FakeSlurm):
         process = self.start_mars("render", "film.json", "-o", "out", "--backend", "threads", "--nodes", 2)
         wait_until(lambda: " left\n" in self.slurm("status", "out"), SECONDS, "no status of frames")
         self.assertRegex(self.slurm("status", "out"), rf"out: \d+ of {LONG} frames of film.json\n"
+                         rf"used: .* processor hours, .* written, 0 restarts\n"
                          rf"run on .* \(process \d+\): frame \d+ of {LONG}, .* left\n  .*  2 nodes, \d+ frames\n$")
         self.refused(1, "cancel", "out", says="no job was submitted for this folder")
         process.send_signal(signal.SIGTERM)
         process.wait(SECONDS)
-        self.assertNotIn("run on", self.slurm("status", "out"))
+        self.assertRegex(self.slurm("status", "out"), r"frames of film.json\nused: .* written, 1 restart\n$")
         done = self.run_program("mars", "watch", "out")
         self.assertEqual(done.returncode, 1)
         self.assertClear(done.stderr, "nothing renders here, and frames are missing")
@@ -158,6 +194,8 @@ class Jobs(SideBySide, FakeSlurm):
     def setUp(self):
         super().setUp()
         self.program("sbatch", SBATCH)
+        for name in ["find", "rm", "wc"]:
+            (self.folder / "bin" / name).symlink_to(shutil.which(name))
         self.film = self.write("film.json", spinning_teapot(24, [64, 36]))
         self.succeed("mars", "render", "film.json", "-o", "whole", "--backend", "threads", "--quiet")
 
@@ -201,7 +239,8 @@ class Scripts(SideBySide, FakeSlurm):
                          "while :; do sleep 0.05; done")
         self.program("mars-host", "")
         self.program("mars-node", "")
-        self.program("srun", "case $* in *--multi-prog*) exec mars $(<${!#});; *--relative*) ;; *) exit $(cat machines);; esac")
+        self.program("srun", "[ \"$SLURM_EXPORT_ENV\" != NONE ] || exit 1\n"  # without PATH
+                     "case $* in *--multi-prog*) exec mars $(<${!#});; *--relative*) ;; *) exit $(cat machines);; esac")
         self.program("scontrol", "case $1 in show) cat job;; *) echo \"$@\" >>requeued;; esac")
         self.write("job", "JobId=12 PreemptTime=None\n")
         self.write("machines", "0")
@@ -220,7 +259,9 @@ class Scripts(SideBySide, FakeSlurm):
 
     def end_of(self, script):
         """Its exit code, and what it asked of scontrol."""
-        code = self.start(script).wait(SECONDS)
+        process = self.start(script)
+        code = process.wait(SECONDS)
+        self.said = process.stderr.read()
         requeued = self.folder / "requeued"
         return code, requeued.read_text() if requeued.exists() else ""
 
@@ -260,6 +301,24 @@ class Scripts(SideBySide, FakeSlurm):
         for script in SCRIPTS:
             self.assertEqual(self.end_of(script), (0, "requeue 12\n"), script)
 
+    def test_a_job_that_does_not_hand_its_environment_on(self):
+        """As sbatch --export=NONE starts it: no machine is lost because of that."""
+        self.write("code", "1")
+        self.job["SLURM_EXPORT_ENV"] = "NONE"
+        for script in SCRIPTS:
+            self.assertEqual(self.end_of(script), (1, ""), script)
+
+    def test_starts_without_a_new_frame_end(self):
+        self.write("code", "1")
+        self.write("machines", "1")
+        (self.folder / "out").mkdir()
+        for number, script in enumerate(SCRIPTS):
+            self.job["SLURM_JOB_ID"] = str(number)
+            self.assertEqual([self.end_of(script)[0] for _ in range(6)], [0] * 5 + [1], script)
+            self.assertIn("its starts bring no new frame (restarts in a row without one: 5;", self.said)
+            self.write(f"out/frame-{number:04}.png", "")
+            self.assertEqual(self.end_of(script), (0, f"requeue {number}\n"), script)
+
     def test_preemption_with_a_time_of_grace(self):
         self.write("code", "1")
         self.write("job", "JobId=12 PreemptTime=2026-11-22T19:07:11\n")
@@ -275,6 +334,83 @@ class Scripts(SideBySide, FakeSlurm):
     def test_scancel(self):
         for script in SCRIPTS:
             self.assertEqual(self.after(script, signal.SIGTERM), (1, ""), script)
+
+
+QSTAT = """echo 'Job id            Name             User              Time Use S Queue'
+echo '----------------  ---------------- ----------------  -------- - -----'
+echo '1.pbs             mars             ada               00:00:20 R workq'"""
+NUMBERED = "PATH=/usr/bin:/bin; for script; do :; done; printf '%s\\n' \"$@\" >words; cp \"$script\" submitted; " \
+           "echo >>jobs; "
+OTHERS = {
+    "pbs": ({"qsub": NUMBERED + 'echo "$(wc -l <jobs).pbs"', "qstat": QSTAT, "pbsnodes": ""},
+            {"PBS_JOBID": "1.pbs", "PBS_NODEFILE": "tasks", "PBS_O_WORKDIR": "."}, "1.pbs", "running for 00:00:20"),
+    "lsf": ({"bsub": "PATH=/usr/bin:/bin; printf '%s\\n' \"$@\" >words; cat >submitted; "
+                     "echo 'Job <1> is submitted to queue <normal>.'",
+             "bjobs": "echo '1|RUN|20 second(s)|3*n1|-|'"},
+            {"LSB_JOBID": "1", "LSB_HOSTS": "localhost localhost localhost"}, "1", "running on 3*n1 for 20 second(s)"),
+    "flux": ({"flux": "case $1 in hostlist) echo localhost; exit;; jobs) echo 'f1|RUN|20s|n1|'; exit;; esac; "
+                      + NUMBERED + 'echo "f$(wc -l <jobs)"'}, {}, "f1", "running on n1 for 20s")}
+
+
+@needs_mpi
+class OtherSystems(SideBySide, FakeSlurm):
+    """What qsub, bsub and flux were given, run as their systems run it."""
+
+    def submit(self, system, film, *words):
+        """The answer, without a look for Slurm's programs of this machine."""
+        programs, *_ = OTHERS[system]
+        for name, script in programs.items():
+            self.program(name, script)
+        if not (self.folder / "bin/sh").exists():
+            (self.folder / "bin/sh").symlink_to(shutil.which("sh"))
+        self.environment["PATH"] = f"{self.folder}/bin"
+        self.write("tasks", "localhost\n" * 3)
+        self.write("film.json", film)
+        return self.run_program("mars", "submit", "film.json", "-o", system, "--nodes", 1, "--tasks", 3, *words,
+                                env=self.environment)
+
+    def run_job(self, system):
+        environment = dict(ENVIRONMENT, PATH=f"{self.folder}/bin:{ENVIRONMENT['PATH']}", **OTHERS[system][1])
+        return subprocess.run(["/bin/bash", "submitted"], cwd=self.folder, env=environment, capture_output=True,
+                              text=True, timeout=SECONDS)
+
+    def remove_programs(self):
+        for name in [name for programs, *_ in OTHERS.values() for name in programs]:
+            (self.folder / "bin" / name).unlink(missing_ok=True)
+        (self.folder / "jobs").unlink(missing_ok=True)
+
+    def test_a_film(self):
+        film = spinning_teapot(12, [64, 36])
+        self.write("film.json", film)
+        self.succeed("mars", "render", "film.json", "-o", "whole", "--backend", "threads", "--quiet")
+        for system, (_, _, number, running) in OTHERS.items():
+            with self.subTest(system):
+                done = self.submit(system, film, "--sbatch", "-P physics")
+                self.assertEqual((done.stdout, done.stderr),
+                                 (f"job {number}; follow it with: mars watch {system}\n", ""))
+                self.assertIn("-P\nphysics\n", self.read("words"))
+                self.assertIn(f"job {number}: {running}\n",
+                              self.succeed("mars", "status", system, env=self.environment))
+                done = self.run_job(system)
+                self.assertEqual((done.returncode, complaints(done.stderr)), (0, ""), done.stdout)
+                self.assertEqual(self.verified_hash(system), self.verified_hash("whole"))
+                self.remove_programs()
+
+    def test_a_time_limit(self):
+        """Two seconds after its start, which is two minutes before its limit, the job queues itself again."""
+        for system, code, jobs in [("pbs", 0, ["1.pbs", "2.pbs"]), ("lsf", 85, ["1"]), ("flux", 0, ["f1", "f2"])]:
+            with self.subTest(system):
+                self.assertClear(self.submit(system, spinning_teapot(LONG, [160, 90]), "--time", "2:02").stderr,
+                                 "the time limit 2:02 is 122 seconds")
+                self.assertEqual(self.run_job(system).returncode, code)
+                again = self.folder / system / f".{system}/again"
+                self.assertEqual(again.read_text().split() if again.exists() else [], jobs[1:])
+                self.remove_programs()
+
+    def test_what_others_do_not_have(self):
+        film = spinning_teapot(12, [64, 36])
+        self.assertClear(self.submit("lsf", film, "--array", 2).stderr, "only Slurm gets an array of jobs from mars")
+        self.assertClear(self.submit("lsf", film, "--time", "soon").stderr, "'soon' is no time as 8:00:00")
 
 
 if __name__ == "__main__":

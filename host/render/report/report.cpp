@@ -156,6 +156,7 @@ std::string report_text(const ReportHead& head, const farm::FarmReport& report) 
                             {"load_seconds", report.load_seconds},
                             {"render_seconds", report.render_seconds},
                             {"total_seconds", report.total_seconds},
+                            {"usage", sinks::to_json(head.usage)},
                             {"host", host_json(report)},
                             {"nodes", nodes},
                             {"dimensions", dimensions_json(report.nodes)},

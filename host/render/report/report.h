@@ -7,6 +7,7 @@
 
 #include "host/render/farm/farm.h"
 #include "host/render/farm/host_memory.h"
+#include "host/render/sinks/usage.h"
 
 namespace mars::report {
 
@@ -19,6 +20,7 @@ struct ReportHead {
   std::uint32_t width = 0;             // pixels
   std::uint32_t height = 0;
   farm::HostMemory memory;
+  sinks::Usage usage = {};  // of all runs of the folder; without a folder of this one
 };
 
 std::string report_text(const ReportHead& head, const farm::FarmReport& report);

@@ -310,6 +310,7 @@ class Opening {
     const bool same = sinks::are_of_one_folder(there, all);
     if (!same && (!edit_ || there.pixel_version != all.pixel_version)) return;
     all.more = there.more;
+    all.usage = there.usage;
     Manifest kept = there;
     kept.pixel_hashes.resize(kept.frames.size());
     if (wish_.overwrite)

@@ -163,6 +163,7 @@ bool nodes_write_sooner(const Prediction& prediction, std::span<const wire::Hell
 // Nodes hear that the host lives also while it waits for storage.
 void record(const wire::Written& written, sinks::FrameFolder& folder, farm::Heartbeats& heartbeats) {
   const std::string hash = written.pixel_hash.data();
+  folder.note_used({.bytes = written.bytes});
   try {
     folder.note_written(written.frame, hash);
   } catch (const document::FileFailure&) {
@@ -320,11 +321,11 @@ void render_nothing(const RenderJob& job, const EventReporter& reporter) {
 }
 
 void write_report(const RenderJob& job, const film::CompiledFilm& film, const farm::HostMemory& shared,
-                  const farm::FarmReport& report) {
+                  const farm::FarmReport& report, const sinks::Usage& usage) {
   const farm::HostMemory memory = report.node_files == report.frames.size() ? farm::where_nodes_write(shared) : shared;
   const wire::FilmSettings& settings = film.view().settings();
   const report::ReportHead head{job.film,       film.checksum(), job.backend, job.arguments,
-                                settings.width, settings.height, memory};
+                                settings.width, settings.height, memory,      usage};
   document::write_whole_file(job.report, report::report_text(head, report));
 }
 
@@ -348,7 +349,7 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   check_pictures(memory, job.film);
 
   output.folder = std::move(opened.folder);
-  if (output.folder) output.folder->show_status([&board = output.board] { return sinks::text_of(board.status()); });
+  if (output.folder) output.folder->show_status([&board = output.board] { return board.status(); });
   output.sink = make_sink(job, output.folder.get(), view);
   output.pool = make_sinks(job, *output.sink, pool_shape(host, view, job, memory.frames));
   const auto watch = begin_watch(job, reporter);
@@ -362,7 +363,8 @@ void render(const RenderJob& job, EventReporter& reporter, trace::Trace* trace, 
   };
   heartbeats.during("ending", [&] {
     if (output.folder) output.folder->finish(&film);
-    if (!job.report.empty()) write(job.report, [&] { write_report(job, film, memory, report); });
+    const sinks::Usage usage = output.folder ? output.folder->whole_usage() : output.board.status().used;
+    if (!job.report.empty()) write(job.report, [&] { write_report(job, film, memory, report, usage); });
     if (trace) write(job.trace, [&] { trace::write_trace(job.trace, {job.film, job.backend}, *trace); });
   });
   reporter.report(events::Done{plan.frames(), report.total_seconds, job.folder, trace ? trace->left_out() : 0});

@@ -83,6 +83,8 @@ sinks::Status StatusBoard::status() const {
   const std::lock_guard lock(mutex_);
   sinks::Status now = status_;
   now.written = time(nullptr);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begun_;
+  if (!drawn_.empty()) now.used.processor_seconds = seconds.count() * static_cast<double>(drawn_.size() + 1);
   for_each_node(now, [&](sinks::Status::Node& node) { node.frames = drawn_[static_cast<std::size_t>(node.node)]; });
   return now;
 }

@@ -1,6 +1,7 @@
 // A rendering's status (sinks/status.h) as its events tell it.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <string>
@@ -31,6 +32,7 @@ class StatusBoard {
 
   mutable std::mutex mutex_;
   sinks::Status status_;
+  const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   std::vector<std::uint32_t> drawn_;  // frames, by node
 };
 

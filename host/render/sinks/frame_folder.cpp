@@ -43,18 +43,31 @@ void remove_part(const fs::path& part) {
   if (unlink(part.c_str()) != 0 && errno != ENOENT) document::fail_file("write", part, errno);
 }
 
-// False, and nothing is added, where the manifest is of another film or format. `known`: what the run knows of the
-// folder, which stands in for a manifest that is lost or damaged.
-bool add_to_manifest(const Manifest& rendered, const Manifest& known, const fs::path& folder, const RunsFolder& runs,
-                     const FolderTurn& turn, const Warn& warn = {}) {
+// Returns what all runs have used; none, and nothing is added, where the manifest is of another film or format.
+// `known`: what the run knows of the folder, which stands in for a manifest that is lost or damaged.
+std::optional<Usage> add_to_manifest(const Manifest& rendered, const Usage& used, const Manifest& known,
+                                     const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn,
+                                     const Warn& warn = {}) {
   Found found = find_manifest(folder, &known);
   turn.confirm();
   Manifest& all = *found.manifest;
-  if (!are_of_one_folder(all, rendered)) return false;
+  if (!are_of_one_folder(all, rendered)) return std::nullopt;
   add_frames(all, rendered);
+  all.usage += used;
   write_manifest(all, folder, runs);
   if (warn && !found.repaired.empty()) warn(repair_text(found.repaired));
-  return true;
+  return all.usage;
+}
+
+bool is_whole(const Manifest& rendered) { return std::ranges::none_of(rendered.pixel_hashes, &std::string::empty); }
+
+// Nothing of a run that has left no status.
+Usage usage_of(const RunFiles& run, const Manifest& rendered) {
+  const std::optional<Status> status = status_of(run);
+  if (!status) return {};
+  Usage used = status->used;
+  if (!is_whole(rendered)) ++used.restarts;
+  return used;
 }
 
 // Also makes room on a full disk for the manifest.
@@ -78,7 +91,7 @@ void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const Fol
     if (run.run == runs.own_name() || (run.run != ended && !turn.has_ended(run))) continue;
     remove_parts(run);
     if (const std::optional<Manifest> rendered = rendered_by(run))
-      add_to_manifest(*rendered, *rendered, folder, runs, turn);
+      add_to_manifest(*rendered, usage_of(run, *rendered), *rendered, folder, runs, turn);
     remove_files(run, turn);
   }
 }
@@ -219,6 +232,7 @@ void FrameFolder::write_film(const film::CompiledFilm& film, const FolderTurn& t
 void FrameFolder::claim() {
   Manifest claimed = rendered_;
   claimed.pixel_hashes.clear();
+  claimed.usage = {};
   const std::string text = text_of(Claim{runs_.self(), time(nullptr), claimed});
   document::replace_file(runs_.own_file(kClaimEnding), runs_.own_file(".claim.part"), std::as_bytes(std::span(text)));
   lease_.emplace(runs_.own_file(kClaimEnding));
@@ -267,10 +281,13 @@ void FrameFolder::finish_within(std::chrono::milliseconds patience, const film::
   const FolderTurn turn(runs_, patience, [this] { patience_.note_answer(); });
   lease_->confirm();
   hashes_.reset();
+  const Usage used = whole_usage_ ? Usage() : own_usage();
   status_.reset();
-  if (!add_to_manifest(rendered_, known(), path_, runs_, turn, warn_))
+  const std::optional<Usage> whole = add_to_manifest(rendered_, used, known(), path_, runs_, turn, warn_);
+  if (!whole)
     throw Failure("is no longer the manifest of the film that was rendered", (path_ / kManifestName).string(),
                   "see that nothing else writes it, and render the film again");
+  whole_usage_ = whole;
   if (film != nullptr && !film::is_saved(*film, path_ / kFilmName)) {
     write_film(*film, turn);
     if (warn_) warn_(std::string(kFilmName) + " was lost or damaged: it is written again");
@@ -303,8 +320,29 @@ images::FileFacts FrameFolder::facts_of(std::uint32_t frame, const std::string& 
   return facts_in(begun_, frame, pixel_hash, content);
 }
 
-void FrameFolder::show_status(std::function<std::string()> text) {
-  status_.emplace(runs_.own_file(kStatusEnding), runs_.own_file(std::string(kStatusEnding) + ".part"), std::move(text));
+void FrameFolder::show_status(std::function<Status()> status) {
+  shown_ = std::move(status);
+  status_.emplace(runs_.own_file(kStatusEnding), runs_.own_file(std::string(kStatusEnding) + ".part"),
+                  [this] { return text_of(status_now()); });
+}
+
+void FrameFolder::note_used(const Usage& used) {
+  const std::lock_guard lock(mutex_);
+  used_ += used;
+}
+
+Status FrameFolder::status_now() {
+  Status now = shown_ ? shown_() : Status();
+  const std::lock_guard lock(mutex_);
+  now.used += used_;
+  return now;
+}
+
+Usage FrameFolder::own_usage() {
+  Usage used = status_now().used;
+  if (!shown_ && used.processor_seconds == 0) return {};  // nobody counts
+  if (!is_whole(rendered_)) ++used.restarts;
+  return used;
 }
 
 fs::path FrameFolder::file_of(std::uint32_t frame) const { return path_ / frame_file_name(rendered_, frame); }
@@ -322,6 +360,9 @@ void FrameFolder::put(std::uint32_t frame, const std::string& pixel_hash, const 
     recorded = true;
     document::replace_file(file_of(frame), part, file);
   });
+  Usage written;
+  for (const std::span<const std::byte> piece : file) written.bytes += piece.size();
+  note_used(written);
 } catch (const Failure&) {
   refuse_gone(path_);
   lease_->confirm();

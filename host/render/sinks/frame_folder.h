@@ -31,6 +31,7 @@
 #include "host/render/sinks/restore.h"
 #include "host/render/sinks/runs_folder.h"
 #include "host/render/sinks/sink.h"
+#include "host/render/sinks/status.h"
 #include "host/render/sinks/status_file.h"
 #include "host/render/sinks/unseen_rivals.h"
 #include "host/render/sinks/writer_orders.h"
@@ -92,8 +93,13 @@ class FrameFolder {
   // Those asked for that are not there: this run is to write them.
   const std::vector<std::uint32_t>& frames() const { return rendered_.frames; }
 
-  // From now on `text` is what the run's .status says (status_file.h). Until the end a thread calls it.
-  void show_status(std::function<std::string()> text);
+  // From now on `status` is what the run's .status says (status_file.h), beside what the folder itself counts; and what
+  // the run has used goes to the manifest with its frames. Until the end a thread calls it.
+  void show_status(std::function<Status()> status);
+  // More that was used for the run's frames: bytes of files that nodes wrote, faces that it joins. From any thread.
+  void note_used(const Usage& used);
+  // All runs of the folder together, once this one is finished.
+  Usage whole_usage() const { return whole_usage_.value_or(Usage()); }
 
   // What the frame's file says (frame_mark.h).
   images::FileFacts facts_of(std::uint32_t frame, const std::string& pixel_hash, const std::string& content) const;
@@ -131,18 +137,23 @@ class FrameFolder {
   void finish_within(std::chrono::milliseconds patience, const film::CompiledFilm* film = nullptr);
   void refuse_lost_frames() const;
   void record(std::uint32_t frame, const std::string& pixel_hash);
+  Status status_now();
+  Usage own_usage();
   Manifest known() const;
 
   std::filesystem::path path_;
   const Warn warn_;
   Patience patience_;
-  std::mutex mutex_;  // guards the hashes of rendered_
+  std::mutex mutex_;  // guards used_ and the hashes of rendered_
   Manifest rendered_;
   Manifest begun_;                     // the folder's when the run began
   std::vector<std::uint32_t> wanted_;  // frames, also those that were there
   RunsFolder runs_;
   std::optional<Lease> lease_;
   std::optional<HashLog> hashes_;
+  Usage used_;                        // beside what the status has
+  std::function<Status()> shown_;     // none: the run shows no status
+  std::optional<Usage> whole_usage_;  // once this run's is in the manifest
   std::optional<StatusFile> status_;
   bool finished_ = false;
 };

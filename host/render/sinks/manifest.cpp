@@ -22,9 +22,9 @@ namespace {
 
 constexpr std::size_t kLongestFilm = 3 * 4096;  // bytes: of a path, of which each may be written as three
 constexpr auto kKeys = std::to_array<std::string_view>(
-    {"version", "sum",          "film",        "checksum",      "width",        "height",  "format",
-     "rate",    "film_frames",  "frames",      "pixel_version", "pixel_hashes", "sources", "options",
-     "names",   "first_number", "compression", "window",        "pixel_aspect", "ocio",    "layers"});
+    {"version",     "sum",    "film",          "checksum",     "width",   "height",  "format", "rate",
+     "film_frames", "frames", "pixel_version", "pixel_hashes", "sources", "options", "names",  "first_number",
+     "compression", "window", "pixel_aspect",  "ocio",         "layers",  "usage"});
 
 // Unbroken stretches as [first, last] pairs, so that a long film's manifest stays short.
 json stretches_of(const std::vector<std::uint32_t>& frames) {
@@ -325,6 +325,7 @@ json to_json(const Manifest& manifest) {
   if (!manifest.pixel_hashes.empty()) text["pixel_hashes"] = hashes_json(manifest.pixel_hashes);
   if (!manifest.sources.empty()) text["sources"] = sources_json(manifest.sources);
   if (!manifest.options.empty()) text["options"] = manifest.options;
+  add_usage(manifest.usage, text);
   text["sum"] = sum_of(text);
   return text;
 }
@@ -351,6 +352,7 @@ Manifest manifest_of(const json& from) {
     manifest.pixel_hashes = hashes_of(record.list("pixel_hashes"), manifest.frames.size());
   if (from.contains("sources")) manifest.sources = sources_of(record.list("sources"));
   if (from.contains("options")) manifest.options = words_of(record.list("options"));
+  manifest.usage = usage_of(record);
   return manifest;
 }
 

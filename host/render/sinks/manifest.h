@@ -13,6 +13,7 @@
 #include "host/images/picture_bands.h"
 #include "host/images/picture_format.h"
 #include "host/images/picture_place.h"
+#include "host/render/sinks/usage.h"
 #include "node/wire/pixel_version.h"
 
 namespace mars::sinks {
@@ -53,6 +54,7 @@ struct Manifest {
   images::PicturePlace place = {};  // of width x height
   images::ViewName view = {};
   wire::LayerSet layers = 0;  // of EXR files
+  Usage usage = {};           // of all runs that have ended
   std::string more = {};      // keys that this program does not know, as the text of an object; "": none
 
   bool operator==(const Manifest&) const = default;

@@ -79,6 +79,13 @@ double Record::positive_number(std::string_view key) const {
   return number.get<double>();
 }
 
+double Record::number(std::string_view key) const {
+  const json& number = value(key);
+  const bool fits = number.is_number() && std::isfinite(number.get<double>()) && number.get<double>() >= 0;
+  if (!fits) refuse_value(key, number, "a number from 0");
+  return number.get<double>();
+}
+
 std::string Record::text(std::string_view key, std::size_t longest) const {
   const json& text = value(key);
   if (!text.is_string() || text.get_ref<const std::string&>().size() > longest)

@@ -34,6 +34,7 @@ class Record {
   const nlohmann::json& list(std::string_view key) const;
   std::uint64_t whole_number(std::string_view key, std::uint64_t lowest, std::uint64_t highest) const;
   double positive_number(std::string_view key) const;
+  double number(std::string_view key) const;  // from 0
   // Of at most `longest` bytes.
   std::string text(std::string_view key, std::size_t longest) const;
   std::string checksum(std::string_view key) const;

@@ -1,7 +1,6 @@
 #include "host/render/sinks/status.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -36,13 +35,9 @@ json to_json(const Status::Machine& machine) {
   return {{"name", machine.name}, {"nodes", nodes}};
 }
 
-// Not below 0; `usual` where there is none.
+// `usual` where there is none.
 double number_of(const Record& from, std::string_view key, double usual) {
-  if (!from.has(key)) return usual;
-  const json& number = from.value(key);
-  const bool fits = number.is_number() && std::isfinite(number.get<double>()) && number.get<double>() >= 0;
-  if (!fits) refuse_value(key, number, "a number from 0");
-  return number.get<double>();
+  return from.has(key) ? from.number(key) : usual;
 }
 
 std::uint32_t count_of(const Record& from, std::string_view key) {
@@ -89,6 +84,7 @@ Status status_of(const json& object) {
   if (from.has("left")) status.left = number_of(from, "left", 0);
   for (const json& machine : from.list("machines")) status.machines.push_back(machine_of(machine));
   for (const json& warning : from.list("warnings")) status.warnings.push_back(text_of(warning));
+  status.used = usage_of(from);
   return status;
 }
 
@@ -107,6 +103,7 @@ std::string text_of(const Status& status) {
   text["machines"] = json::array();
   for (const Status::Machine& machine : status.machines) text["machines"].push_back(to_json(machine));
   text["warnings"] = status.warnings;
+  add_usage(status.used, text);
   return text.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
 }
 

@@ -9,6 +9,7 @@
 
 #include "host/render/sinks/process_name.h"
 #include "host/render/sinks/runs_folder.h"
+#include "host/render/sinks/usage.h"
 
 namespace mars::sinks {
 
@@ -41,6 +42,7 @@ struct Status {
   std::optional<double> left;
   std::vector<Machine> machines;
   std::vector<std::string> warnings;  // the last ones
+  Usage used;                         // so far
 
   bool operator==(const Status&) const = default;
 };

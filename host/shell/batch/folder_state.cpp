@@ -38,15 +38,18 @@ std::vector<FolderState::Run> runs_in(const fs::path& folder) {
 void count_frames(FolderState& state, const fs::path& folder) {
   const sinks::Manifest manifest = sinks::read_manifest(folder);
   state.film = manifest.film;
+  state.used = manifest.usage;
+  for (const FolderState::Run& run : state.runs)
+    if (run.status) state.used += run.status->used;
   state.of = static_cast<std::uint32_t>(manifest.frames.size());
   state.there = static_cast<std::uint32_t>(manifest.frames.size() -
                                            sinks::missing_frames(folder, manifest, manifest.frames).size());
 }
 
 // A cluster whose controller does not answer hides no frames.
-void find_jobs(FolderState& state, const std::vector<std::string>& numbers) {
+void find_jobs(FolderState& state, const std::vector<Jobs>& jobs) {
   try {
-    state.jobs = queued_jobs(numbers);
+    state.jobs = queued_jobs(jobs);
   } catch (const Failure& failure) {
     state.no_jobs = failure.problem;
   }
@@ -110,15 +113,25 @@ bool FolderState::active() const {
 FolderState look_at(const fs::path& folder) {
   FolderState state;
   state.folder = folder.string();
-  const std::vector<std::string> numbers = RememberedJobs(folder).numbers();
-  if (!numbers.empty()) find_jobs(state, numbers);
+  const std::vector<Jobs> jobs = jobs_of(folder);
+  if (!jobs.empty()) find_jobs(state, jobs);
   state.runs = runs_in(folder);
-  if (numbers.empty() || fs::exists(folder / "frames.json")) count_frames(state, folder);
+  if (jobs.empty() || fs::exists(folder / "frames.json")) count_frames(state, folder);
   return state;
+}
+
+std::string text_of(const sinks::Usage& used) {
+  if (used == sinks::Usage()) return "";
+  const double megabytes = static_cast<double>(used.bytes) / 1e6;
+  return document::formatted("%.2f processor hours, ", used.processor_hours()) +
+         (megabytes < 1000 ? document::formatted("%.1f MB", megabytes)
+                           : document::formatted("%.1f GB", megabytes / 1000)) +
+         " written, " + document::counted(used.restarts, "restart");
 }
 
 std::vector<std::string> lines_of(const FolderState& state, bool machines) {
   std::vector<std::string> lines{folder_line(state)};
+  if (const std::string used = text_of(state.used); machines && !used.empty()) lines.push_back("used: " + used);
   for (const QueuedJob& job : state.jobs) lines.push_back(text_of(job));
   if (!state.no_jobs.empty()) lines.push_back("jobs are unknown: " + state.no_jobs);
   for (const FolderState::Run& run : state.runs) {

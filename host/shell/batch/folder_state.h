@@ -1,5 +1,5 @@
 // What goes on in a folder of frames: how much is there, the runs that render into it, with their machines, and the
-// Slurm jobs that were submitted for it.
+// batch jobs that were submitted for it.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 #include "host/render/sinks/claim.h"
 #include "host/render/sinks/status.h"
-#include "host/shell/batch/slurm.h"
+#include "host/shell/batch/queued_jobs.h"
 
 namespace mars::batch {
 
@@ -30,7 +30,8 @@ struct FolderState {
   std::uint32_t of = 0;     // that runs were asked for so far
   std::vector<Run> runs;
   std::vector<QueuedJob> jobs;
-  std::string no_jobs;  // why Slurm's are unknown
+  sinks::Usage used;    // by all runs so far
+  std::string no_jobs;  // why they are unknown
 
   bool complete() const { return of > 0 && there == of; }
   // Whether anything renders or will, or may where jobs are unknown.
@@ -40,8 +41,11 @@ struct FolderState {
 // Throws Failure where there is neither a manifest nor a job, or one of their files is damaged.
 FolderState look_at(const std::filesystem::path& folder);
 
-// A line for the folder, each job and each run; with `machines` also below each run a line for each of its machines and
-// for its last warnings.
+// "12.34 processor hours, 1.2 GB written, 1 restart"; "" where nothing was used.
+std::string text_of(const sinks::Usage& used);
+
+// A line for the folder, each job and each run; with `machines` also one for what was used, and below each run a line
+// for each of its machines and for its last warnings.
 std::vector<std::string> lines_of(const FolderState& state, bool machines);
 
 }  // namespace mars::batch

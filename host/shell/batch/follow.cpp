@@ -66,20 +66,21 @@ bool follow(const std::filesystem::path& folder) {
 }
 
 void cancel(const std::filesystem::path& folder) {
-  const Lines numbers = RememberedJobs(folder).numbers();
-  if (numbers.empty())
+  const std::vector<Jobs> jobs = jobs_of(folder);
+  if (jobs.empty())
     throw Failure("no job was submitted for this folder by mars submit", folder.string(),
                   "end mars render where it runs; mars status shows on which machine");
-  if (queued_jobs(numbers).empty()) {
+  if (queued_jobs(jobs).empty()) {
     std::cout << "no job is left to cancel\n";
     return;
   }
-  cancel_jobs(numbers);
+  cancel_jobs(jobs);
   const Clock::time_point deadline = Clock::now() + kLongestEnd;
-  for (std::vector<QueuedJob> left; !(left = queued_jobs(numbers)).empty(); std::this_thread::sleep_for(kPeriod / 4))
+  for (std::vector<QueuedJob> left; !(left = queued_jobs(jobs)).empty(); std::this_thread::sleep_for(kPeriod / 4))
     if (Clock::now() > deadline)
-      throw Failure("does not end: " + text_of(left.front()), folder.string(), "ask squeue and your administrators");
-  for (const std::string& number : numbers) std::cout << "job " << number << " has ended\n";
+      throw Failure("does not end: " + text_of(left.front()), folder.string(), "ask your administrators");
+  for (const auto& [system, numbers] : jobs)
+    for (const std::string& number : numbers) std::cout << "job " << number << " has ended\n";
 }
 
 }  // namespace mars::batch

@@ -9,7 +9,7 @@ namespace mars::batch {
 // there.
 bool follow(const std::filesystem::path& folder);
 
-// Ends the jobs that were submitted for the folder, and returns when Slurm has ended them. Throws Failure where none
+// Ends the jobs that were submitted for the folder, and returns when they have ended. Throws Failure where none
 // was submitted, or one does not end.
 void cancel(const std::filesystem::path& folder);
 

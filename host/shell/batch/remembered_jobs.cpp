@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <sstream>
 #include <system_error>
 
 #include "hal/failure/failure.h"
@@ -16,57 +17,64 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kLongestNumber = 20;  // digits
+constexpr std::size_t kLongestNumber = 64;        // bytes
+constexpr std::uintmax_t kLongestList = 1 << 20;  // bytes
 
 std::vector<std::string> numbers_in(const std::string& text) {
   const json object = sinks::parse_record(text);
   std::vector<std::string> numbers;
   for (const json& job : sinks::Record(object).list("jobs")) {
     const std::string number = sinks::Record(job).text("job", kLongestNumber);
-    if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos)
-      sinks::refuse_value("job", number, "a number");
+    if (!is_job_number(number)) sinks::refuse_value("job", number, "a number");
     numbers.push_back(number);
   }
   return numbers;
 }
 
-// In what sbatch takes, % begins a field.
-std::string escaped(const std::string& path) {
-  std::string text;
-  for (const char letter : path) text += letter == '%' ? "%%" : std::string(1, letter);
-  return text;
-}
-
 }  // namespace
 
-fs::path RememberedJobs::write_script(const std::string& text) const {
+void RememberedJobs::write_script(const std::string& text) const {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) document::fail_file("create the folder", folder_, error.value());
-  const fs::path script = folder_ / "job.sbatch";
-  document::write_whole_file(script, text);
-  return script;
+  document::write_whole_file(folder_ / system_.script_name, text);
+  fs::remove(folder_ / "film.starts", error);
 }
 
 void RememberedJobs::add(const std::string& number) const {
   json jobs = json::array();
-  for (const std::string& each : numbers()) jobs.push_back({{"job", each}});
+  for (const std::string& each : submitted()) jobs.push_back({{"job", each}});
   jobs.push_back({{"job", number}});
   document::write_whole_file(jobs_file(), json{{"jobs", jobs}}.dump(2) + "\n");
 }
 
-std::vector<std::string> RememberedJobs::numbers() const {
+std::vector<std::string> RememberedJobs::submitted() const {
   const std::optional<std::string> text = document::read_file_if_there(jobs_file(), sinks::kLargestRecord);
   if (!text) return {};
   try {
     return numbers_in(*text);
   } catch (const Failure& failure) {
-    throw Failure("not a list of jobs: " + failure.problem, jobs_file().string(), "remove it; squeue shows the jobs");
+    throw Failure("not a list of jobs: " + failure.problem, jobs_file().string(),
+                  "remove it; " + system_.list.front() + " shows the jobs");
   }
 }
 
-std::string RememberedJobs::output_pattern(bool array) const {
-  return escaped(fs::absolute(folder_).string()) + (array ? "/%A_%a.out" : "/%j.out");
+// A line that is not whole yet is read another time.
+std::vector<std::string> RememberedJobs::numbers() const {
+  std::vector<std::string> numbers = submitted();
+  std::istringstream lines(document::read_file_if_there(folder_ / "again", kLongestList).value_or(""));
+  for (std::string number; std::getline(lines, number) && !lines.eof();)
+    if (is_job_number(number)) numbers.push_back(number);
+  return numbers;
+}
+
+std::vector<Jobs> jobs_of(const fs::path& frames) {
+  std::vector<Jobs> all;
+  for (const BatchSystem& system : batch_systems()) {
+    std::vector<std::string> numbers = RememberedJobs(frames, system).numbers();
+    if (!numbers.empty()) all.push_back({&system, std::move(numbers)});
+  }
+  return all;
 }
 
 }  // namespace mars::batch

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/child/environment.h"
 #include "host/child/programs.h"
 #include "host/cli/command.h"
+#include "host/content/document/file.h"
 #include "host/content/document/shell_line.h"
 #include "host/content/document/text.h"
 #include "host/content/document/work_folder.h"
@@ -20,8 +22,9 @@
 #include "host/render/resume/resume.h"
 #include "host/shell/batch/array_parts.h"
 #include "host/shell/batch/batch_script.h"
+#include "host/shell/batch/batch_system.h"
+#include "host/shell/batch/queued_jobs.h"
 #include "host/shell/batch/remembered_jobs.h"
-#include "host/shell/batch/slurm.h"
 #include "host/shell/job/film_of.h"
 #include "host/shell/launch/film_audio.h"
 #include "host/shell/options/render_options.h"
@@ -34,17 +37,16 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t kMostMachines = 1 << 16;
 constexpr std::uint32_t kMostTasks = 1 << 20;
-constexpr std::uint32_t kMostParts = 1000;  // Slurm's MaxArraySize is 1001 by default
-constexpr double kWorthSaying = 0.005;      // of more work
+constexpr std::uint32_t kMostParts = 1000;            // Slurm's MaxArraySize is 1001 by default
+constexpr double kWorthSaying = 0.005;                // of more work
+constexpr std::uintmax_t kLongestPrologue = 1 << 20;  // bytes
 
 struct SubmitWords {
   options::RenderOptions render;
-  std::uint32_t machines = 0;  // 0, "": as the script says
-  std::uint32_t tasks = 0;
-  std::string time, partition;
+  batch::BatchJob job;
   std::uint32_t parts = 1;          // of an array
   std::vector<std::string> sbatch;  // each a text of one or several words
-  bool print = false;
+  bool print = false, parsable = false;
 };
 
 // In a line of the script a blank would end it.
@@ -66,24 +68,24 @@ std::string words_on_a_line(const std::string& text) {
 
 void add_job_options(cli::Command command, SubmitWords& words) {
   command
-      .add("--nodes", words.machines,
+      .add("--nodes", words.job.machines,
            "Machines, which Slurm calls nodes; default: 4. On each of them several nodes of MARS may run. "
            "Example: --nodes 8")
       .type("N")
       .range(std::uint32_t{1}, kMostMachines);
   command
-      .add("--tasks", words.tasks,
+      .add("--tasks", words.job.tasks,
            "Processes on all machines: one is the host, each other a node that renders; default: 32. "
            "Example: --tasks 128")
       .type("N")
       .range(std::uint32_t{2}, kMostTasks);
   command
-      .add("--time", words.time,
+      .add("--time", words.job.time,
            "Time limit, in the form of sbatch. Before the limit the job queues itself again, until all frames are "
            "there. Example: --time 8:00:00")
       .type("TIME")
       .check(one_word);
-  command.add("--partition", words.partition, "Slurm's partition. Example: --partition long")
+  command.add("--partition", words.job.partition, "Partition of Slurm, or queue. Example: --partition long")
       .type("NAME")
       .check(one_word);
   command
@@ -94,12 +96,21 @@ void add_job_options(cli::Command command, SubmitWords& words) {
       .range(std::uint32_t{1}, kMostParts);
   command
       .add("--sbatch", words.sbatch,
-           "More options for sbatch, quoted as one word of the shell; they override the options above and those of the "
-           "script and the environment. You can give this option several times. Example: --sbatch \"--account=physics "
+           "More options for sbatch, or for qsub, bsub or flux batch, quoted as one word of the shell; they override "
+           "the "
+           "options above and those of the script and the environment. You can give this option several times. "
+           "Example: --sbatch \"--account=physics "
            "--qos=long\"")
       .repeated()
       .type("WORDS")
       .check(words_on_a_line);
+  command
+      .add_read(
+          "--prologue",
+          [&](const std::string& word) { words.job.prologue = document::read_file(word, kLongestPrologue); },
+          "Lines of the shell for the script, before anything of MARS starts. Example: --prologue modules.sh")
+      .type("FILE");
+  command.add_flag("--parsable", words.parsable, "Print the number of the job and nothing else. Example: --parsable");
   command.add_flag("--print", words.print, "Print the batch script; submit nothing. Example: --print");
 }
 
@@ -125,7 +136,7 @@ film::CompiledFilm film_of(const SubmitWords& words) {
     work.emplace(render.videos.front(), document::WorkFolder::Use::alone,
                  [&] { warn_submitter(videos::waiting_text({render.videos.front()})); });
   resume::Opened opened = resume::open(wish, compile, {.warn = warn_submitter});
-  if (!opened.changed.empty()) std::cout << opened.changed << '\n';
+  if (!opened.changed.empty()) (words.parsable ? std::cerr : std::cout) << opened.changed << '\n';
   return std::move(opened.film);
 }
 
@@ -144,7 +155,7 @@ batch::ArrayParts parts_of(const SubmitWords& words, const film::CompiledFilm& f
   return parts;
 }
 
-// More words for sbatch.
+// More words for what submits.
 std::vector<std::string> sbatch_words(const SubmitWords& words) {
   std::vector<std::string> all;
   for (const std::string& text : words.sbatch)
@@ -152,12 +163,13 @@ std::vector<std::string> sbatch_words(const SubmitWords& words) {
   return all;
 }
 
-batch::BatchJob job_of(const SubmitWords& words, std::vector<film::FrameSet> parts, const fs::path& self) {
-  batch::BatchJob job{{}, sbatch_words(words), {}, std::move(parts), self.parent_path()};
-  if (words.machines != 0) job.options.emplace_back("nodes", std::to_string(words.machines));
-  if (words.tasks != 0) job.options.emplace_back("ntasks", std::to_string(words.tasks));
-  if (!words.time.empty()) job.options.emplace_back("time", words.time);
-  if (!words.partition.empty()) job.options.emplace_back("partition", words.partition);
+batch::BatchJob job_of(const SubmitWords& words, const batch::BatchSystem& system, std::vector<film::FrameSet> parts,
+                       const fs::path& self) {
+  batch::BatchJob job = words.job;
+  job.more = sbatch_words(words);
+  job.parts = std::move(parts);
+  job.programs = self.parent_path();
+  job.kept = fs::absolute(words.render.folder) / system.folder;
   options::RenderOptions render = words.render;
   render.kept_film = true;
   render.overwrite = false;  // what was there before is gone by then
@@ -173,22 +185,49 @@ std::string array_text(const batch::ArrayParts& parts) {
   return tasks + document::formatted(", with %.0f %% more work than one job's", 100 * parts.more_work);
 }
 
+// A script can be printed on a machine without a batch system: Slurm's.
+batch::BatchSystem system_for(const SubmitWords& words) try {
+  return batch::batch_system_in(child::program_path(child::own_environment()));
+} catch (const Failure&) {
+  if (!words.print) throw;
+  return batch::batch_systems().front();
+}
+
+void check_system(const SubmitWords& words, const batch::BatchSystem& system) {
+  const bool is_slurm = system.name == batch::batch_systems().front().name;
+  if (!is_slurm && words.parts > 1)
+    throw cli::UsageError("--array", "only Slurm gets an array of jobs from mars; leave it out for " + system.name);
+  if (!is_slurm && !words.job.time.empty() && batch::seconds_of(words.job.time).value_or(0) == 0)
+    throw cli::UsageError("--time",
+                          "'" + words.job.time + "' is no time as 8:00:00, and " + system.name + " needs one");
+}
+
+void print_number(const SubmitWords& words, const std::string& number, const batch::ArrayParts& parts) {
+  const bool array = parts.frames.size() > 1;
+  if (words.parsable)
+    std::cout << number << '\n';
+  else
+    std::cout << "job " << number << (array ? ", " + array_text(parts) : "") << "; follow it with: mars watch "
+              << options::word_of_file(words.render.folder) << '\n';
+}
+
 void submit(const SubmitWords& words) {
   const fs::path self = child::own_file();
-  if (!words.print) batch::check_slurm();
+  const batch::BatchSystem system = system_for(words);
+  check_system(words, system);
   const batch::ArrayParts parts = parts_of(words, film_of(words));
-  const batch::BatchJob job = job_of(words, parts.frames, self);
-  const std::string script = batch::batch_script(batch::script_template(self), job);
+  const batch::BatchJob job = job_of(words, system, parts.frames, self);
+  const std::string script = batch::batch_script(system, batch::script_template(self), job);
   if (words.print) {
     std::cout << script;
     return;
   }
-  const batch::RememberedJobs jobs(words.render.folder);
-  const bool array = job.parts.size() > 1;
-  const std::string number = batch::submit_job(jobs.write_script(script), jobs.output_pattern(array), job.sbatch);
+  for (const std::string& doubt : batch::doubts_of(system, job)) warn_submitter(doubt);
+  const batch::RememberedJobs jobs(words.render.folder, system);
+  jobs.write_script(script);
+  const std::string number = batch::submit_job(system, job);
   jobs.add(number);
-  std::cout << "job " << number << (array ? ", " + array_text(parts) : "") << "; follow it with: mars watch "
-            << options::word_of_file(words.render.folder) << '\n';
+  print_number(words, number, parts);
 }
 
 void check_words(const SubmitWords& words) {
@@ -210,7 +249,7 @@ void check_words(const SubmitWords& words) {
 
 void add_submit(cli::Command app) {
   const auto words = std::make_shared<SubmitWords>();
-  const cli::Command command = app.add_command("submit", "Render a film by a job of Slurm");
+  const cli::Command command = app.add_command("submit", "Render a film by a job of Slurm, PBS, LSF or Flux");
   options::add_render_options(command, words->render, options::Program::submit);
   add_job_options(command, *words);
   command.footer(

@@ -1,4 +1,4 @@
-// `mars submit`: a job of Slurm that renders.
+// `mars submit`: a job of a batch system that renders.
 #pragma once
 
 #include "host/cli/command.h"

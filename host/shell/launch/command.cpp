@@ -291,8 +291,11 @@ child::Command mpi_start(const options::RenderOptions& options, const Programs& 
     throw Failure("the limit of " + std::to_string(surroundings.address_limit >> 10) +
                       " kB of addresses a process is too small for MPI",
                   "ulimit -v", "raise it to " + std::to_string(kLeastForMpi >> 10) + " or more: ulimit -v unlimited");
-  return programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
-                                    : open_mpi_start(options, programs, surroundings);
+  child::Command command = programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
+                                                      : open_mpi_start(options, programs, surroundings);
+  // After sbatch --export=NONE srun, by which mpirun reaches other machines, would start its helpers without PATH.
+  if (surroundings.environment.value("SLURM_EXPORT_ENV")) command.environment.emplace_back("SLURM_EXPORT_ENV", "ALL");
+  return command;
 }
 
 child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,

@@ -166,6 +166,7 @@ void FilmPanorama::join() {
                         [&](std::size_t done) {
                           display_.show("joined frame " + std::to_string(done) + " of " + std::to_string(count));
                         });
+  opened_.folder->note_used(sinks::read_manifest(faces_in(work_.path())).usage);
   opened_.folder->finish(&opened_.film);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - started;
   display_.print(document::counted(count, "frame") + " joined in " + options_.folder + ", " +

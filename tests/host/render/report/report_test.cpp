@@ -55,10 +55,12 @@ TEST(Report, HasEveryFrameWithEveryNodeThatDrewIt) {
                         {"film.json", "-o", "x"},
                         96,
                         54,
-                        farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, wire::PixelFormat::rgb8, 2, 1, 4)};
+                        farm::share_host_memory(1 << 30, {96, 54, 2, 0, {}, 24, {}}, wire::PixelFormat::rgb8, 2, 1, 4),
+                        {7200, 1000, 1}};
   const json report = json::parse(report_text(head, two_nodes_two_frames()));
   EXPECT_EQ(report["film"], "film.json");
   EXPECT_EQ(report["arguments"].size(), 3u);
+  EXPECT_EQ(report["usage"], json({{"processor_seconds", 7200}, {"bytes", 1000}, {"restarts", 1}}));
   EXPECT_EQ(report["nodes"][1]["binding"], "core 0");
   EXPECT_EQ(report["slow"], json::parse(R"([{"node": 1, "host": "ada", "times": 2.5, "begin": 0.5, "end": 2.0},
                                             {"node": 0, "host": "ada", "times": 3.0, "begin": 1.0, "end": null}])"));

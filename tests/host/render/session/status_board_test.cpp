@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 namespace mars::session {
 namespace {
 
@@ -17,6 +20,18 @@ TEST(StatusBoard, HasTheNodesByMachine) {
   EXPECT_EQ(status.machines[0].name, "n1");
   ASSERT_EQ(status.machines[0].nodes.size(), 2u);
   EXPECT_EQ(status.machines[0].nodes[1].node, 2);
+}
+
+TEST(StatusBoard, CountsAProcessorForTheHostAndEachNode) {
+  using Clock = std::chrono::steady_clock;
+  const auto before = Clock::now();
+  StatusBoard board("film.json");
+  EXPECT_EQ(board.status().used, sinks::Usage());
+  board.note(three_nodes());
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const double used = board.status().used.processor_seconds;
+  EXPECT_GE(used, 4 * 0.02);
+  EXPECT_LE(used, 4 * std::chrono::duration<double>(Clock::now() - before).count());
 }
 
 TEST(StatusBoard, CountsTheFramesOfEachNode) {

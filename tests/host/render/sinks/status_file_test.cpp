@@ -48,7 +48,7 @@ TEST(StatusFile, IsLeftOutWhereItCannotBeWritten) {
 TEST(StatusFile, OfAFolderIsGoneWithItsRun) {
   const test::TemporaryFolder folder;
   FrameFolder frames(folder.path(), small_manifest());
-  frames.show_status([] { return "1"; });
+  frames.show_status([] { return Status(); });
   const auto has_status = [&] {
     const auto runs = RunsFolder(folder.path(), this_process()).runs();
     return std::ranges::any_of(runs.front().files, [](const auto& file) { return file.extension() == kStatusEnding; });

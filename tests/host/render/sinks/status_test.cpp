@@ -22,6 +22,7 @@ Status some_status() {
   status.machines = {{"n1", {{.node = 0, .frames = 2, .doing = ""}}},
                      {"n2", {{.node = 1, .frames = 1, .silent = 7.5, .frame = 4, .doing = "scanline", .slow = 2}}}};
   status.warnings = {"node 1 is slow"};
+  status.used = {12.5, 1'000'000, 0};
   return status;
 }
 

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+
+#include "host/shell/batch/state_text.h"
 #include "tests/host/content/document/failure_of.h"
 #include "tests/host/render/sinks/small_folders.h"
 #include "tests/temporary_folder.h"
@@ -36,7 +41,8 @@ FolderState some_state() {
   claim.process.host = "n1";
   claim.process.number = 12;
   state.runs = {{claim, false, 1, some_status()}};
-  state.jobs = {{"7", "RUNNING", "0:05", 1, "n[1-2]", "None"}};
+  state.jobs = {{"7", "running", "0:05", 1, "n[1-2]", ""}};
+  state.used = {4500, 12'300'000, 2};
   return state;
 }
 
@@ -48,7 +54,8 @@ TEST(FolderState, HasALineForTheFolderEachJobAndEachRun) {
 
 TEST(FolderState, NamesNodesThatAreSilentOrSlow) {
   const Lines lines = lines_of(some_state(), true);
-  EXPECT_EQ(Lines(lines.begin() + 3, lines.end()),
+  EXPECT_EQ(lines[1], "used: 1.25 processor hours, 12.3 MB written, 2 restarts");
+  EXPECT_EQ(Lines(lines.begin() + 4, lines.end()),
             (Lines{"  n1  2 nodes, 10 frames",
                    "  n2  2 nodes, 4 frames; node 2 silent for 12 s, in scanline of frame 7; node 3 takes 2.5 times as "
                    "long",
@@ -73,6 +80,65 @@ TEST(FolderState, TakesARunThatSaysNothingForLost) {
   EXPECT_TRUE(document::holds(lines_of(state, false).back(), " left; has said nothing for 0:20"));
   state.runs.front().silent = 90;
   EXPECT_FALSE(state.active());
+}
+
+TEST(FolderState, IsAlsoThereForPrograms) {
+  const auto json = nlohmann::json::parse(json_of(some_state()));
+  EXPECT_EQ(json["state"], "rendering");
+  EXPECT_EQ(json["frames"], (nlohmann::json{{"done", 20}, {"of", 50}}));
+  EXPECT_EQ(json["usage"], (nlohmann::json{{"processor_hours", 1.25}, {"bytes", 12300000}, {"restarts", 2}}));
+  EXPECT_EQ(json["jobs"][0]["machines"], "n[1-2]");
+  EXPECT_EQ(json["runs"][0]["seconds_left"], 61);
+  EXPECT_EQ(comment_of(some_state()), "mars: 20 of 50 frames, 1.25 processor hours, 12.3 MB written, 2 restarts\n");
+  EXPECT_EQ(comment_of({}), "mars: 0 of 0 frames\n");
+}
+
+TEST(FolderState, SaysForProgramsWhetherItGoesOn) {
+  const auto word = [](const FolderState& state) { return nlohmann::json::parse(json_of(state))["state"]; };
+  FolderState state = some_state();
+  state.runs.clear();
+  EXPECT_EQ(word(state), "waiting");
+  state.jobs.clear();
+  EXPECT_EQ(word(state), "incomplete");
+  state.no_jobs = "squeue failed";
+  EXPECT_EQ(word(state), "unknown");
+  state.there = state.of;
+  EXPECT_EQ(word(state), "complete");
+}
+
+TEST(FolderState, HasMetricsOfOneGrammar) {
+  FolderState state = some_state();
+  state.folder = "/a \"b\"";
+  const std::string text = metrics_of(state);
+  EXPECT_TRUE(document::holds(text, "# TYPE mars_frames_done gauge\nmars_frames_done{folder=\"/a \\\"b\\\"\"} 20\n"));
+  EXPECT_TRUE(document::holds(text, "\"} 12300000\n"));
+  EXPECT_TRUE(text.ends_with("} 2\n# EOF\n"));
+  std::istringstream lines(text);
+  const std::regex sample(R"re(mars_[a-z_]+\{folder=".*"\} [0-9.e+-]+)re"), comment("# (HELP|TYPE|EOF).*");
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(std::regex_match(line, line.starts_with('#') ? comment : sample)) << line;
+}
+
+TEST(FolderState, CountsWhatAllRunsHaveUsed) {
+  const test::TemporaryFolder folder;
+  const auto run = [&](const std::vector<std::uint32_t>& drawn) {
+    sinks::FrameFolder frames(folder.path(), sinks::small_manifest());
+    sinks::Status status;
+    status.process = sinks::this_process();
+    status.used.processor_seconds = 10;
+    frames.show_status([status] { return status; });
+    sinks::put_frames(frames, sinks::of_frames(drawn), 7);
+  };
+  run({0, 1});
+  const sinks::Usage first = look_at(folder.path()).used;
+  EXPECT_EQ(first.processor_seconds, 10);
+  EXPECT_EQ(first.restarts, 1u);
+  EXPECT_GT(first.bytes, 100u);
+  run({2, 5, 11});
+  const sinks::Usage both = look_at(folder.path()).used;
+  EXPECT_EQ(both.processor_seconds, 20);
+  EXPECT_EQ(both.restarts, 1u);
+  EXPECT_GT(both.bytes, first.bytes);
 }
 
 TEST(FolderState, IsOfWhatIsInTheFolder) {

@@ -71,6 +71,11 @@ TEST(Command, ABatchJobHasItsOwnRoom) {
   EXPECT_FALSE(document::holds(line(3, alone(8)), "keepalive"));
 }
 
+TEST(Command, SrunHandsTheEnvironmentOn) {
+  EXPECT_TRUE(document::holds(line(3, alone(8, {"SLURM_EXPORT_ENV=NONE"})), "SLURM_EXPORT_ENV=ALL "));
+  EXPECT_FALSE(document::holds(line(3, alone(8)), "SLURM_EXPORT_ENV"));
+}
+
 TEST(Command, OnlyOnThisMachineDoesItKeepToTheLoopbackInterface) {
   const std::string held = "LD_PRELOAD=/opt/mars-loopback.so";
   EXPECT_EQ(mpi_command(film(3), all_programs(), alone(8)).open_mpi, child::OpenMpi::on_this_machine);

@@ -1,0 +1,51 @@
+#include "host/shell/batch/queued_jobs.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/content/document/failure_of.h"
+
+namespace mars::batch {
+namespace {
+
+std::optional<QueuedJob> read_by(std::size_t system, const std::string& line) {
+  return queued_job_of(batch_systems()[system], line);
+}
+
+TEST(QueuedJob, IsReadFromALineOfSqueue) {
+  EXPECT_EQ(read_by(0, "12_3|RUNNING|1:02:03|2|n[1-4]|None|"),
+            (QueuedJob{"12_3", "running", "1:02:03", 2, "n[1-4]", ""}));
+  EXPECT_EQ(document::failure_of([] { read_by(0, "slurm is down"); }),
+            "squeue's answer is not understood: slurm is down");
+}
+
+TEST(QueuedJob, IsReadFromLinesOfOtherSystems) {
+  EXPECT_EQ(read_by(1, "123.pbs          mars             ada               00:00:20 R workq"),
+            (QueuedJob{"123.pbs", "running", "00:00:20", 0, "", ""}));
+  EXPECT_EQ(read_by(2, "123|PEND|0 second(s)|-|Job is waiting|"),
+            (QueuedJob{"123", "pending", "0 second(s)", 0, "", "Job is waiting"}));
+  EXPECT_EQ(read_by(3, "f2abc|RUN|20.5s|n[1-2]|"), (QueuedJob{"f2abc", "running", "20.5s", 0, "n[1-2]", ""}));
+}
+
+TEST(QueuedJob, IsNoneWhereItHasEnded) {
+  EXPECT_EQ(read_by(1, "123.pbs  mars  ada  00:00:20 C workq"), std::nullopt);
+  EXPECT_EQ(read_by(2, "123|DONE|20 second(s)|n1|-|"), std::nullopt);
+  EXPECT_EQ(read_by(3, "f2abc|INACTIVE|20.5s|n[1-2]|"), std::nullopt);
+}
+
+TEST(QueuedJob, SaysWhereItRunsOrWhyItWaits) {
+  EXPECT_EQ(text_of({"12", "running", "0:20", 0, "n[1-4]", ""}), "job 12: running on n[1-4] for 0:20");
+  EXPECT_EQ(text_of({"12", "running", "0:20", 0, "", ""}), "job 12: running for 0:20");
+  EXPECT_EQ(text_of({"12", "pending", "0:00", 1, "", "Resources"}), "job 12: pending (Resources), 1 restart");
+  EXPECT_EQ(text_of({"12", "pending", "0:00", 2, "", ""}), "job 12: pending, 2 restarts");
+}
+
+TEST(JobNumber, IsOneWordThatIsNoOption) {
+  for (const char* number : {"12", "123.pbs", "123[].pbs",
+                             "\xC6\x92"
+                             "2abc"})
+    EXPECT_TRUE(is_job_number(number)) << number;
+  for (const char* number : {"", "-12", "12; rm", "1,2", "1\n2"}) EXPECT_FALSE(is_job_number(number)) << number;
+}
+
+}  // namespace
+}  // namespace mars::batch
