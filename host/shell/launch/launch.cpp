@@ -1,5 +1,7 @@
 #include "host/shell/launch/launch.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -44,16 +46,19 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// By a process of its own: where storage does not answer, this one ends nevertheless.
-void clear_ended_runs(const std::string& folder, const std::string& ended = "") {
-  const child::Descriptor nothing = child::null_device();
+// By a process of its own: where storage does not answer, this one ends nevertheless. How many frames the run `ended`
+// has rendered; 0: that is not known.
+std::uint32_t clear_ended_runs(const std::string& folder, const std::string& ended = "") {
+  const child::Descriptor nothing = child::null_device(), answer = child::file_in_memory();
   const auto work = [&] {
-    sinks::clear_ended_runs(folder, ended);
-    return 0;
+    const std::uint32_t frames = sinks::clear_ended_runs(folder, ended);
+    return pwrite(answer.number(), &frames, sizeof frames, 0) == sizeof frames ? 0 : 1;
   };
   child::Process clears(work, {.streams = {{1, nothing.number()}, {2, nothing.number()}}});
   const auto last = std::chrono::steady_clock::now() + kLongestClearing;
   while (!clears.poll() && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(kClearingLook);
+  std::uint32_t frames = 0;
+  return pread(answer.number(), &frames, sizeof frames, 0) == sizeof frames ? frames : 0;
 }
 
 // Jobs are started from these, which are found once: programs are started to find them.
@@ -132,9 +137,7 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
             return show_job(command_for(job, starting, machines), job, display, adviser);
           },
-          [&](const std::string& run) {
-            if (!options.folder.empty()) clear_ended_runs(options.folder, run);
-          },
+          [&](const std::string& run) { return options.folder.empty() ? 0 : clear_ended_runs(options.folder, run); },
           [&] { return machines_of(options, starting); },
           [&](std::chrono::seconds pause, const std::vector<std::string>& machines) {
             const Question question = question_of(options, starting);

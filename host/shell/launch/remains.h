@@ -18,6 +18,7 @@ struct Remains {
   std::optional<events::Resumed> resumed;
   std::optional<events::Booted> booted;  // once all nodes were there
   std::vector<std::uint32_t> taken;      // frames, as they came
+  std::uint32_t recorded = 0;            // frames that its run had rendered, once it has ended; 0: that is not known
   std::optional<events::Drawing> drawing;
   std::optional<events::Fault> fault;
   std::optional<events::Done> done;
@@ -34,6 +35,8 @@ struct Remains {
   }
   // All its frames are where they belong, though it may have had to be ended.
   bool well() const { return done && (ending.well() || !ended_for.empty()); }
+  // Frames that it brought.
+  std::uint32_t brought() const { return std::max(progress.done(), recorded); }
 };
 
 }  // namespace mars::launch
