@@ -72,7 +72,7 @@ void remove_files(const RunFiles& run, const FolderTurn& turn) {
       if ((file.extension() == kClaimEnding) == claims && file != turn.file()) fs::remove(file, ignored);
 }
 
-// Of the run `ended`, how many frames it has rendered.
+// Returns how many frames the run `ended` has rendered.
 std::uint32_t settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn,
                                 const std::string& ended = "") {
   std::uint32_t of_ended = 0;

@@ -62,9 +62,9 @@ std::vector<std::string> others_files(const std::filesystem::path& folder, const
 // whether there are frames that say that they are of other films, and none of this one.
 bool add_marked_frames(const std::filesystem::path& folder, Manifest& manifest);
 
-// Of a run that may have ended before it recorded what its nodes had written: `manifest` is what it renders, with the
-// hashes that it has recorded. Adds those that its other frames' files say; files have frames' names only when they are
-// whole. Returns how many frames have a hash and a file then. Throws Failure where the folder cannot be listed.
+// A run may end before it has recorded all that its nodes have written. `manifest` is what it renders, with the hashes
+// that it has recorded: adds those that the files of its other frames say, for files have frames' names only once they
+// are whole. Returns how many frames have a hash and a file then. Throws Failure where the folder cannot be listed.
 std::uint32_t add_unrecorded_frames(const std::filesystem::path& folder, Manifest& manifest);
 
 }  // namespace mars::sinks

@@ -22,6 +22,7 @@ struct Remains {
   std::optional<events::Drawing> drawing;
   std::optional<events::Fault> fault;
   std::optional<events::Done> done;
+  std::string elsewhere;  // the machine where its frames are, where this one does not see them; "": it sees them
   std::string ended_for;  // why we ended it: what it did not say or do; "": we did not
   child::Ending ending;
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none
