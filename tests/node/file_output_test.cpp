@@ -1,4 +1,5 @@
-// A node whose frame writer has a file under its name while the node does something else, by a clock that waiting moves.
+// A node whose frame writer has a file under its name while the node does something else, by a clock that waiting
+// moves.
 #include "node/file_output.h"
 
 #include <gtest/gtest.h>
