@@ -8,7 +8,9 @@ namespace mars::mpi {
 
 void prepare_to_wait() {}
 
-std::optional<std::chrono::microseconds> pause_of(int, bool) { return std::chrono::seconds(1); }
+std::optional<std::chrono::microseconds> pause_of(int, bool, bool) { return std::chrono::seconds(1); }
+
+void Crowd::note(double, double) {}
 
 int turns_at_once(bool) { return 0; }
 
