@@ -18,7 +18,6 @@
 #include "hal/messages/message_pool.h"
 #include "hal/mpi/bells.h"
 #include "hal/mpi/overflow.h"
-#include "hal/mpi/patience.h"
 
 namespace mars::mpi {
 
@@ -92,8 +91,6 @@ class MpiBackend : public messages::Backend {
   void send_copy(int to, int type, messages::Message* copy);
   void release_when_sent(MPI_Request request, messages::Message* copy);
   bool test(MPI_Request& request, MPI_Status* status = MPI_STATUS_IGNORE);
-  bool is_crowded() const { return crowd_.until() > 0 && messages::machine_seconds() < crowd_.until(); }
-  void yield();
   bool catch_soon(int type, MPI_Status& status);
   bool give_up(MPI_Request& request, MPI_Status& status);
   bool nothing_under_way();
@@ -113,7 +110,6 @@ class MpiBackend : public messages::Backend {
   int wide_tag_ = 0;               // of messages whose type is larger than last_tag_
   std::size_t longest_plain_ = 0;  // messages that are longer are announced
   bool oversubscribed_ = false;
-  Crowd crowd_;
   std::optional<Bells> bells_;  // as soon as the machine's ranks are known
   std::vector<bool> is_here_;   // by id: a rank of this machine
   messages::Neighbourhood neighbourhood_;

@@ -14,6 +14,7 @@
 #include "hal/mpi/announcement.h"
 #include "hal/mpi/mpi_backend.h"
 #include "hal/mpi/mpi_call.h"
+#include "hal/mpi/patience.h"
 
 namespace mars::mpi {
 namespace {
@@ -199,12 +200,10 @@ std::optional<messages::Envelope> MpiBackend::peek() {
   if (peeked_) return peeked_;
   int arrived = 0;
   MPI_Status status;
-  const double begun = oversubscribed_ ? messages::machine_seconds() : 0;
   // Open MPI's first look may only fetch what has come, and the second one sees it: a rank that slept after the first
   // would not be rung again.
   for (int looks = bells_->armed() ? 2 : 1; looks > 0 && arrived == 0; --looks)
     succeed(MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, all_, &arrived, &status), "MPI_Iprobe");
-  if (arrived == 0 && oversubscribed_) crowd_.note(begun, messages::machine_seconds());
   if (arrived == 0) return std::nullopt;
   bells_->await(Bells::kNothing);
   peeked_ = messages::Envelope{status.MPI_SOURCE, type(status.MPI_TAG), length_of(status)};
@@ -292,7 +291,7 @@ std::optional<messages::Ticket> MpiBackend::start_take(void* buffer) {
 // A short one is received without a look before. Senders of a long one learn that it need not be copied.
 bool MpiBackend::receive_soon(int type, void* buffer, std::size_t capacity, messages::Envelope& came) {
   if (peeked_ || tag(type) == wide_tag_ || mpi_waits_well()) return false;
-  if (capacity >= kLong || caught_.bytes() == nullptr || (oversubscribed_ && is_crowded())) {
+  if (capacity >= kLong || caught_.bytes() == nullptr) {
     if (!peek()) bells_->await(type);
     return false;
   }
@@ -326,17 +325,11 @@ bool MpiBackend::catch_soon(int type, MPI_Status& status) {
   int done = 0;
   for (int turn = 0; turn < at_once && done == 0; ++turn) succeed(MPI_Test(&request, &done, &status), "MPI_Test");
   if (done != 0) return true;
-  for (int turn = at_once; pause_of(turn, oversubscribed_, is_crowded())->count() == 0; ++turn) {
-    yield();
+  for (int turn = at_once; pause_of(turn, oversubscribed_)->count() == 0; ++turn) {
+    sched_yield();
     if (test(request, &status)) return true;
   }
   return !give_up(request, status);
-}
-
-void MpiBackend::yield() {
-  const double begun = messages::machine_seconds();
-  sched_yield();
-  crowd_.note(begun, messages::machine_seconds());
 }
 
 // False if it came meanwhile.
@@ -351,10 +344,10 @@ bool MpiBackend::give_up(MPI_Request& request, MPI_Status& status) {
 // Messages from ranks that have no bell here, and progress of sends within MPI, show only to a look. Arms the bell for
 // one more look before the first sleep.
 void MpiBackend::idle(int turn, std::chrono::microseconds longest) {
-  const auto pause = pause_of(turn, oversubscribed_, is_crowded());
+  const auto pause = pause_of(turn, oversubscribed_);
   if (!pause) return;
   if (pause->count() == 0)
-    yield();
+    sched_yield();
   else if (!bells_->armed())
     bells_->arm();
   else if (*pause < kLongestBlindSleep || (bells_->everyone_has_one() && nothing_under_way()))

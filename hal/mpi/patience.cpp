@@ -19,29 +19,19 @@ constexpr unsigned long kTimerSlack = 1000;  // nanoseconds
 constexpr int kShortestSleep = 10;           // microseconds
 constexpr int kSleepsUntilLonger = 4;        // each length is slept so often before it doubles
 
-constexpr int kSleepsLeftOut = 20;  // in a crowd, which takes longer
-
-constexpr double kTaken = 2.5e-3;  // seconds that a yield or a look takes only where others have the processor
-constexpr double kTrusted = 20;    // times as long as that it is taken for granted that they would again
-
 const Patience& patience(bool oversubscribed) { return oversubscribed ? kTooFewProcessors : kEnoughProcessors; }
 
 }  // namespace
 
 void prepare_to_wait() { prctl(PR_SET_TIMERSLACK, kTimerSlack); }
 
-std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed, bool crowded) {
+std::optional<std::chrono::microseconds> pause_of(int turn, bool oversubscribed) {
   const auto [at_once, yields] = patience(oversubscribed);
-  const int looks = oversubscribed && crowded ? 0 : at_once;
-  if (turn < looks) return std::nullopt;
-  const int sleeps = turn - looks + (crowded ? kSleepsLeftOut : -yields);
+  if (turn < at_once) return std::nullopt;
+  const int sleeps = turn - at_once - yields;
   if (sleeps < 0) return std::chrono::microseconds(0);
   const int doublings = std::min(sleeps / kSleepsUntilLonger, 10);
   return std::chrono::microseconds(kShortestSleep << doublings);
-}
-
-void Crowd::note(double begun, double now) {
-  if (now - begun > kTaken) until_ = now + kTrusted * (now - begun);
 }
 
 int turns_at_once(bool oversubscribed) { return patience(oversubscribed).at_once; }

@@ -8,9 +8,7 @@ namespace mars::mpi {
 
 void prepare_to_wait() {}
 
-std::optional<std::chrono::microseconds> pause_of(int, bool, bool) { return std::chrono::seconds(1); }
-
-void Crowd::note(double, double) {}
+std::optional<std::chrono::microseconds> pause_of(int, bool) { return std::chrono::seconds(1); }
 
 int turns_at_once(bool) { return 0; }
 
