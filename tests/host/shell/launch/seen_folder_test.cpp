@@ -40,7 +40,7 @@ TEST(SeenFolder, IsSeenThoughFileSystemsShowItsClaimLate) {
   write(folder / ".runs/run.claim");
   EXPECT_FALSE(seen.look("run", kBegin + 1h));
   fs::remove_all(folder / ".runs");
-  EXPECT_FALSE(seen.look("run", kBegin + 2h)) << "what becomes of it later is another matter";
+  EXPECT_FALSE(seen.look("run", kBegin + 2h)) << "what happens to it later is another matter";
   EXPECT_FALSE(seen.is_open() || seen.is_missed());
 }
 
