@@ -11,6 +11,8 @@ std::span<const Item> items(std::span<const std::byte> bytes, std::size_t at, st
   return {reinterpret_cast<const Item*>(bytes.data() + at), count};
 }
 
+void send(const wire::Written& written) { csend(wire::kWritten, &written, sizeof written, myhost(), 0); }
+
 }  // namespace
 
 FileOutput::FileOutput(wire::FrameWriter& writer, const raster::Neighbours& neighbours, group::Outbox& outbox,
@@ -22,6 +24,7 @@ FileOutput::FileOutput(wire::FrameWriter& writer, const raster::Neighbours& neig
       exchange_(neighbours, writer),
       team_bands_(neighbours.group()) {
   writer_.share(shared_.bytes());
+  heartbeat_.at_each_look([this] { report_written(); });
 }
 
 void FileOutput::paste(wire::Strip& header) {
@@ -43,8 +46,13 @@ void FileOutput::write() {
   if (!outbox_.stopped()) writer_.write();
 }
 
+// Throws nothing of the writer's: it is called from within calls of others.
+void FileOutput::report_written() {
+  while (writer_.has_written()) send(*writer_.take_written());
+}
+
 void FileOutput::report() {
-  while (const auto written = writer_.take_written()) csend(wire::kWritten, &*written, sizeof *written, myhost(), 0);
+  while (const auto written = writer_.take_written()) send(*written);
   while (const auto text = writer_.take_warning())
     csend(wire::kStorage, text->data(), static_cast<long>(text->size()), myhost(), 0);
 }

@@ -18,6 +18,9 @@ class FileOutput {
   // All outlive it. Collective over a machine's nodes.
   FileOutput(wire::FrameWriter& writer, const raster::Neighbours& neighbours, group::Outbox& outbox,
              Heartbeat& heartbeat);
+  ~FileOutput() { heartbeat_.at_each_look({}); }
+  FileOutput(const FileOutput&) = delete;
+  FileOutput& operator=(const FileOutput&) = delete;
 
   wire::FrameWriter& writer() { return writer_; }
   // The strip of the current frame that the outbox has.
@@ -29,10 +32,13 @@ class FileOutput {
   group::TeamBands& team_bands() { return team_bands_; }
   // The frame is whole here: waits until its file can be written beside the drawing, unless the host has stopped.
   void write();
-  // Files that are whole, and warnings, go to the host.
+  // Files that are whole, and warnings, go to the host. Files also go at each look of the heartbeat: were the run ended
+  // before, the host would not know that they are there.
   void report();
 
  private:
+  void report_written();
+
   wire::FrameWriter& writer_;
   group::Outbox& outbox_;
   Heartbeat& heartbeat_;

@@ -34,6 +34,7 @@ Heartbeat::~Heartbeat() { messages::process().while_waiting({}); }
 
 void Heartbeat::look(bool waits) {
   if (!has_machine_clock_) return;
+  if (at_each_look_) at_each_look_();
   const double now = dclock();
   if (now < looked_ + kLook) return;
   const double passed = std::min(now - std::exchange(looked_, now), kMostALook);

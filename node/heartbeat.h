@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
+#include <utility>
 
 #include "hal/failure/failure.h"
 #include "node/node_identity.h"
@@ -30,6 +32,8 @@ class Heartbeat {
   void begin_frame(std::uint32_t frame);
   void enter(wire::Phase phase) { own_.phase = phase; }
   void rest() { own_.frame = -1; }
+  // Called at each look, which is a chance to send what cannot wait; {}: nothing. Not where machines are simulated.
+  void at_each_look(std::function<void()> call) { at_each_look_ = std::move(call); }
 
   // From loops that may take seconds, every millisecond or oftener: beats if it is time. It costs a look at the clock,
   // and mostly nothing where a loop's turns are short.
@@ -49,6 +53,7 @@ class Heartbeat {
 
   const IsTraced is_traced_;
   const bool has_machine_clock_;
+  std::function<void()> at_each_look_;
   wire::Beat own_{};
   wire::Beat host_{};
   bool begun_ = false;  // the host beats

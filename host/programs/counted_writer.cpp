@@ -126,7 +126,7 @@ bool CountedWriter::is_full() {
 }
 
 std::optional<wire::Written> CountedWriter::take_written() {
-  if (under_way_.empty() || under_way_.front().there > now()) return std::nullopt;
+  if (!has_written()) return std::nullopt;
   const File file = under_way_.front();
   under_way_.pop_front();
   return wire::Written{file.frame, node_, {}, 0, file.there - file.begun};

@@ -44,6 +44,7 @@ class CountedWriter : public wire::FrameWriter {
   bool is_full() override;
   bool is_busy() override { return !under_way_.empty(); }
   std::optional<wire::Written> take_written() override;
+  bool has_written() override { return !under_way_.empty() && under_way_.front().there <= now(); }
   std::optional<std::string> take_warning() override { return std::nullopt; }
 
  private:

@@ -87,9 +87,11 @@ class FrameWriter {
   virtual bool is_full() = 0;
   // Whether files are being written, or were and have not been taken.
   virtual bool is_busy() = 0;
-  // A file that is under its name, whole; none: not yet. Throws Failure where one cannot be written, or storage has
-  // given no answer for too long.
+  // A file that is under its name, whole; none: not yet. Where there is none, throws Failure where one cannot be
+  // written, or storage has given no answer for too long.
   virtual std::optional<Written> take_written() = 0;
+  // Whether there is one; quick.
+  virtual bool has_written() = 0;
   // What a person should know of storage that keeps files waiting; none: nothing new.
   virtual std::optional<std::string> take_warning() = 0;
 };

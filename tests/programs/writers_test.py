@@ -5,10 +5,11 @@ import json
 import os
 import random
 import shutil
+import signal
 import subprocess
 
 from harness import (ENVIRONMENT, EXAMPLES, OWN_MPIRUN, PROGRAMS, SECONDS, ProgramTest, SideBySide, complaints,
-                     endless_film, family, kill, main, needs_mpi, spinning_teapot, wait_until)
+                     endless_film, family, kill, main, needs, needs_mpi, send, spinning_teapot, wait_until)
 
 NODES = ["--write", "nodes"]
 FRAMES = 20
@@ -30,6 +31,9 @@ class Writers(SideBySide, ProgramTest):
 
     def written(self, folder):
         return len(list((self.folder / folder).glob("frame-*")))
+
+    def recorded(self):
+        return sum(log.read_text().count("\n") for log in (self.folder / "out/.runs").glob("*.hashes"))
 
     def render(self, film, folder, *words, **more):
         return self.mars("render", film, "-o", folder, "--quiet", *words, **more)
@@ -103,6 +107,37 @@ class Writers(SideBySide, ProgramTest):
             composed_by = {node["node"] for frame in frames for node in frame["nodes"] if node["seconds"]["compose"] > 0}
             self.assertEqual(composed_by, {0} if groups == 2 else set())
 
+    @needs_mpi
+    @needs("ffmpeg")
+    def test_frames_in_a_folder_of_another_machine_are_said_to_be_there_and_give_no_video(self):
+        """mars, and a job that runs where another folder has the name."""
+        hidden, programs = self.folder / "hidden", self.folder / "programs"
+        hidden.mkdir()
+        programs.mkdir()
+        apart = ["unshare", "--user", "--map-root-user", "--mount"]
+        if self.run_program(*apart, "mount", "-t", "tmpfs", "none", hidden).returncode != 0:
+            self.skipTest("no user namespaces here")
+        for name in ["mpirun", "mpirun.openmpi", "mpirun.mpich"]:
+            (programs / name).write_text(f"#!/bin/sh\nexec {' '.join(apart)} sh -c 'mount -t tmpfs none {hidden} && exec "
+                                         f"{shutil.which(OWN_MPIRUN[0])} \"$@\"' sh \"$@\"\n")
+            (programs / name).chmod(0o755)
+        path = self.write("film.json", spinning_teapot(2, [16, 9]))
+        command = [PROGRAMS / "mars", "render", path, "--backend", "mpi", "--nodes", 1]
+        runs = [subprocess.Popen([*map(str, command), *map(str, outputs)], cwd=self.folder, text=True,
+                                 env=dict(ENVIRONMENT, PATH=f"{programs}:{os.environ['PATH']}"),
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                for outputs in (["-o", hidden / "out"], ["-o", hidden / "more", "-o", "film.mp4"])]
+        for run in runs:
+            self.addCleanup(self.end, run)
+        printed, said = runs[0].communicate(timeout=SECONDS)
+        self.assertEqual((runs[0].returncode, complaints(said)), (0, ""), printed)
+        self.assertRegex(printed, f"2 frames in {hidden}/out, .*; the folder {hidden}/out is on another machine, and this "
+                                  r"machine does not see it\n$")
+        said = runs[1].communicate(timeout=SECONDS)[1]
+        self.assertEqual(runs[1].returncode, 1, said)
+        self.assertClear(said, "this machine, which makes videos of them, does not see them")
+        self.assertFalse((self.folder / "film.mp4").exists())
+
     def test_a_run_goes_on_the_other_way(self):
         path = self.write("film.json", spinning_teapot(FRAMES, [160, 90]))
         one = ["--backend", "threads", "--nodes", 2]
@@ -128,6 +163,28 @@ class Writers(SideBySide, ProgramTest):
         files = self.files("out")
         self.assertEqual({name: files[name] for name in self.files("wanted")}, self.files("wanted"))
         self.assertNothingTorn(self.folder / "out")
+
+    @needs_mpi
+    def test_a_stop_counts_what_the_host_has_not_heard_of(self):
+        """The host stands still while its nodes write what they were given; then the job is stopped."""
+        path = self.write("film.json", spinning_teapot(500, [160, 90]))
+        command = [PROGRAMS / "mars", "render", path, "-o", "out", "--backend", "mpi", "--nodes", 2, *NODES]
+        process = subprocess.Popen([str(word) for word in command], cwd=self.folder, env=ENVIRONMENT, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(self.end, process)
+        wait_until(lambda: process.poll() is not None or self.written("out") > 0, SECONDS, "no frames")
+        hosts = [each for each in family(process.pid) if b"mars-host" in cmdline(each).split(b"\0")[0]]
+        send(hosts, signal.SIGSTOP)
+        unheard = lambda: self.written("out") - self.recorded()
+        wait_until(lambda: unheard() > 3, SECONDS, lambda: f"{unheard()} files that the host has not heard of")
+        process.terminate()
+        said = complaints(process.communicate(timeout=SECONDS)[1])
+        written = self.written("out")
+        self.assertIn(f"stopped by Terminated after {written} of 500 frames", said)
+        self.assertFalse((self.folder / "out/.runs").exists())
+        troubles = self.run_program("mars", "verify", "out").stdout
+        self.assertEqual([line for line in troubles.splitlines() if not line.endswith(": missing")][:-1], [], troubles)
+        self.assertIn(f"{500 - written} of 500 frames", troubles)
 
     @needs_mpi
     def test_films_survive_writers_that_are_killed(self):

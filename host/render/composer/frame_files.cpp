@@ -56,13 +56,18 @@ bool FrameFiles::is_busy() {
 }
 
 std::optional<wire::Written> FrameFiles::take_written() {
-  patience_.check();
+  if (!has_written()) patience_.check();
   const std::lock_guard lock(mutex_);
-  if (failure_) std::rethrow_exception(failure_);
+  if (written_.empty() && failure_) std::rethrow_exception(failure_);
   if (written_.empty()) return std::nullopt;
   const wire::Written written = written_.front();
   written_.pop_front();
   return written;
+}
+
+bool FrameFiles::has_written() {
+  const std::lock_guard lock(mutex_);
+  return !written_.empty();
 }
 
 std::optional<std::string> FrameFiles::take_warning() {

@@ -42,6 +42,7 @@ class FrameFiles {
   bool is_busy();
   // As wire::FrameWriter's.
   std::optional<wire::Written> take_written();
+  bool has_written();
   std::optional<std::string> take_warning();
   // Of a file that was written; empty, with memory.
   std::vector<std::byte> buffer();

@@ -41,6 +41,7 @@ class NodeWriter : public wire::FrameWriter {
   bool is_full() override { return files_.is_full(); }
   bool is_busy() override { return files_.is_busy(); }
   std::optional<wire::Written> take_written() override { return files_.take_written(); }
+  bool has_written() override { return files_.has_written(); }
   std::optional<std::string> take_warning() override { return files_.take_warning(); }
 
  private:

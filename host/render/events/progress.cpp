@@ -1,5 +1,7 @@
 #include "host/render/events/progress.h"
 
+#include <algorithm>
+
 namespace mars::events {
 
 namespace {
@@ -14,7 +16,7 @@ double left_of(const Progress::Kind& kind, const Progress::Kind& other) {
 
 void Progress::count(FrameKind kind, std::uint32_t of_interval, double at_seconds) {
   Kind& counted = kind == FrameKind::keyframe ? keyframes : inbetweens;
-  counted.seconds += at_seconds - seconds();
+  counted.seconds += std::max(0.0, at_seconds - seconds());
   ++counted.done;
   interval = of_interval;
 }

@@ -30,7 +30,8 @@ struct Progress {
   std::uint32_t of() const { return keyframes.of + inbetweens.of; }
   double seconds() const { return keyframes.seconds + inbetweens.seconds; }
 
-  // A frame of `kind` came, `at_seconds` after the start.
+  // A frame of `kind` came, `at_seconds` after the start; where frames that came later were counted before, it took
+  // no time.
   void count(FrameKind kind, std::uint32_t of_interval, double at_seconds);
 
   // Seconds that the rest of each kind will take: as forecast, else as long as those that came; none before anything

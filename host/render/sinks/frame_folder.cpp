@@ -85,15 +85,21 @@ void remove_files(const RunFiles& run, const FolderTurn& turn) {
       if ((file.extension() == kClaimEnding) == claims && file != turn.file()) fs::remove(file, ignored);
 }
 
-void settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn,
-                       const std::string& ended = "") {
+// Returns how many frames the run `ended` has rendered.
+std::uint32_t settle_ended_runs(const fs::path& folder, const RunsFolder& runs, const FolderTurn& turn,
+                                const std::string& ended = "") {
+  std::uint32_t of_ended = 0;
   for (const RunFiles& run : runs.runs()) {
     if (run.run == runs.own_name() || (run.run != ended && !turn.has_ended(run))) continue;
     remove_parts(run);
-    if (const std::optional<Manifest> rendered = rendered_by(run))
-      add_to_manifest(*rendered, usage_of(run, *rendered), *rendered, folder, runs, turn);
+    if (std::optional<Manifest> rendered = rendered_by(run)) {
+      const std::uint32_t there = add_unrecorded_frames(folder, *rendered);
+      const Usage used = usage_of(run, *rendered);
+      if (add_to_manifest(*rendered, used, *rendered, folder, runs, turn) && run.run == ended) of_ended = there;
+    }
     remove_files(run, turn);
   }
+  return of_ended;
 }
 
 std::set<std::string> names_in(const fs::path& folder) {
@@ -259,7 +265,7 @@ LostFrames::LostFrames(const std::vector<std::uint32_t>& lost, const fs::path& f
       frames(static_cast<std::uint32_t>(lost.size())) {}
 
 FrameFolder::~FrameFolder() {
-  if (finished_) return;
+  if (finished_ || nodes_write_) return;
   try {
     finish_within(kShortPatience);
   } catch (const std::exception&) {
@@ -376,7 +382,10 @@ WriterOrders FrameFolder::writer_orders() const {
   return {fs::absolute(path_), fs::absolute(runs_.own_file("")), manifest};
 }
 
-void FrameFolder::add_probe() { document::create_file(writer_orders().host_probe(), ""); }
+void FrameFolder::add_probe() {
+  nodes_write_ = true;
+  document::create_file(writer_orders().host_probe(), "");
+}
 
 bool FrameFolder::sees_probe_of(std::int32_t node) const { return appears(writer_orders().node_probe(node)); }
 
@@ -401,12 +410,13 @@ void FrameFolder::record(std::uint32_t frame, const std::string& pixel_hash) {
   set_hash(rendered_, frame, pixel_hash);
 }
 
-void clear_ended_runs(const fs::path& folder, const std::string& ended) {
+std::uint32_t clear_ended_runs(const fs::path& folder, const std::string& ended) {
   const RunsFolder runs(folder, this_process());
-  if (!runs.exists()) return;
+  if (!runs.exists()) return 0;
   try {
-    settle_ended_runs(folder, runs, FolderTurn(runs, kShortPatience), ended);
+    return settle_ended_runs(folder, runs, FolderTurn(runs, kShortPatience), ended);
   } catch (const std::exception&) {
+    return 0;
   }
 }
 
@@ -453,7 +463,10 @@ Manifest read_manifest(const fs::path& folder) {
   // The runs first: what one has rendered is in frames.json before it is gone from there.
   std::vector<Manifest> unfinished;
   for (const RunFiles& run : RunsFolder(folder, this_process()).runs())
-    if (std::optional<Manifest> rendered = rendered_by(run)) unfinished.push_back(std::move(*rendered));
+    if (std::optional<Manifest> rendered = rendered_by(run)) {
+      add_unrecorded_frames(folder, *rendered);
+      unfinished.push_back(std::move(*rendered));
+    }
   std::optional<Manifest> manifest = read_frames_json(folder);
   std::error_code none;
   if (!manifest && (fs::exists(folder / kFilmName, none) || has_frames(folder)))

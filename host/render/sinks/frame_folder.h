@@ -79,7 +79,8 @@ class FrameFolder {
   FrameFolder(std::filesystem::path path, const Manifest& wanted, const ProcessName& self = this_process(),
               Patience::Bounds bounds = {})
       : FrameFolder(std::move(path), wanted, keep_same_film(wanted), std::move(bounds), self) {}
-  // As finish(), but waits less for its turn; what then is not written, the next run or clear_ended_runs finds.
+  // As finish(), but waits less for its turn, and not at all where nodes may still write files; what then is not
+  // written, the next run or clear_ended_runs finds.
   ~FrameFolder();
   FrameFolder(const FrameFolder&) = delete;
   FrameFolder& operator=(const FrameFolder&) = delete;
@@ -155,13 +156,15 @@ class FrameFolder {
   std::function<Status()> shown_;     // none: the run shows no status
   std::optional<Usage> whole_usage_;  // once this run's is in the manifest
   std::optional<StatusFile> status_;
+  bool nodes_write_ = false;
   bool finished_ = false;
 };
 
 // Does for runs that have ended without it, killed, what the next run would do: their frames' hashes go to the
-// manifest, and what else they left is removed. Leaves alone what cannot be written, or not soon. `ended`: a run that
-// the caller knows to have ended, on whichever machine; "": none.
-void clear_ended_runs(const std::filesystem::path& folder, const std::string& ended = "");
+// manifest, also those of frames whose files were not recorded yet, and what else they left is removed. Leaves alone
+// what cannot be written, or not soon. `ended`: a run that the caller knows to have ended, on whichever machine; "":
+// none. Returns how many frames that run has rendered; 0: it did not leave word of any.
+std::uint32_t clear_ended_runs(const std::filesystem::path& folder, const std::string& ended = "");
 
 // Whether files there say that they are frames.
 bool has_frames(const std::filesystem::path& folder);

@@ -69,6 +69,10 @@ Manifest manifest_of(const film::CompiledFilm& film) {
   return manifest;
 }
 
+bool is_of_very_film(const FrameMark& mark, const Manifest& manifest, std::uint32_t frame) {
+  return mark == mark_in(manifest, frame, mark.pixel_hash, mark.content);
+}
+
 // Where film.mars is lost. None where the frames are not all of one film, or the first of them shows no picture.
 std::optional<Manifest> manifest_of(const std::vector<File>& files, const fs::path& folder) try {
   if (files.empty()) return std::nullopt;
@@ -251,11 +255,27 @@ bool add_marked_frames(const fs::path& folder, Manifest& manifest) {
   for (const File& file : files.marked) {
     const auto frame = frame_of_file(manifest, file.name);
     const FrameMark& mark = file.mark;
-    if (frame && hash_of(manifest, *frame).empty() && mark == mark_in(manifest, *frame, mark.pixel_hash, mark.content))
+    if (frame && hash_of(manifest, *frame).empty() && is_of_very_film(mark, manifest, *frame))
       set_hash(manifest, *frame, mark.pixel_hash);
     some_of_it = some_of_it || mark.film == manifest.checksum;
   }
   return !files.marked.empty() && !some_of_it;
+}
+
+std::uint32_t add_unrecorded_frames(const fs::path& folder, Manifest& manifest) {
+  std::uint32_t there = 0;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; entry != end; entry.increment(error)) {
+    const auto frame = frame_of_file(manifest, entry->path().filename().string());
+    if (!frame || !std::ranges::binary_search(manifest.frames, *frame)) continue;
+    if (hash_of(manifest, *frame).empty() && is_frame_file(entry->path())) {
+      const std::optional<FrameMark> mark = read_mark(entry->path());
+      if (mark && is_of_very_film(*mark, manifest, *frame)) set_hash(manifest, *frame, mark->pixel_hash);
+    }
+    there += hash_of(manifest, *frame).empty() ? 0 : 1;
+  }
+  if (error) document::fail_file("list the folder", folder, error.value());
+  return there;
 }
 
 bool is_own_name(const std::string& name) {

@@ -62,4 +62,9 @@ std::vector<std::string> others_files(const std::filesystem::path& folder, const
 // whether there are frames that say that they are of other films, and none of this one.
 bool add_marked_frames(const std::filesystem::path& folder, Manifest& manifest);
 
+// A run may end before it has recorded all that its nodes have written. `manifest` is what it renders, with the hashes
+// that it has recorded: adds those that the files of its other frames say, for files have frames' names only once they
+// are whole. Returns how many frames have a hash and a file then. Throws Failure where the folder cannot be listed.
+std::uint32_t add_unrecorded_frames(const std::filesystem::path& folder, Manifest& manifest);
+
 }  // namespace mars::sinks

@@ -91,8 +91,7 @@ std::string way_to_go_on(const options::RenderOptions& options) {
 
 Failure stopped(const Remains& remains, const options::RenderOptions& options) {
   return Failure("stopped by " + std::string(strsignal(remains.passed_on)) + " after " +
-                     std::to_string(remains.progress.done()) + " of " + std::to_string(remains.progress.of()) +
-                     " frames",
+                     std::to_string(remains.brought()) + " of " + std::to_string(remains.progress.of()) + " frames",
                  options.folder, way_to_go_on(options));
 }
 

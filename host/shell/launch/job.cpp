@@ -28,6 +28,7 @@ void Job::follow(const child::Command& command, const Listener& listener) {
 
 void Job::look_after(child::Child& child, const Listener& listener) {
   listener.tick();
+  if (listener.is_in_vain && listener.is_in_vain()) child.stop();
   end_if_it_hangs(child);
   if (remains_.booted) return display_.show(remains_.progress);
   if (loading_) return show_slow_load();

@@ -1,5 +1,7 @@
 #include "host/shell/launch/launch.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -29,6 +31,7 @@
 #include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
 #include "host/shell/launch/rendering_window.h"
+#include "host/shell/launch/seen_folder.h"
 #include "host/shell/launch/supervisor.h"
 
 namespace mars::launch {
@@ -39,21 +42,25 @@ constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a
 constexpr std::chrono::seconds kLongestTrial{30};
 constexpr std::chrono::milliseconds kLongestClearing{2500};  // after a run that failed
 constexpr std::chrono::milliseconds kClearingLook{5};
+constexpr std::chrono::milliseconds kFolderLook{50};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// By a process of its own: where storage does not answer, this one ends nevertheless.
-void clear_ended_runs(const std::string& folder, const std::string& ended = "") {
-  const child::Descriptor nothing = child::null_device();
+// By a process of its own: where storage does not answer, this one ends nevertheless. How many frames the run `ended`
+// has rendered; 0: that is not known.
+std::uint32_t clear_ended_runs(const std::string& folder, const std::string& ended = "") {
+  const child::Descriptor nothing = child::null_device(), answer = child::file_in_memory();
   const auto work = [&] {
-    sinks::clear_ended_runs(folder, ended);
-    return 0;
+    const std::uint32_t frames = sinks::clear_ended_runs(folder, ended);
+    return pwrite(answer.number(), &frames, sizeof frames, 0) == sizeof frames ? 0 : 1;
   };
   child::Process clears(work, {.streams = {{1, nothing.number()}, {2, nothing.number()}}});
   const auto last = std::chrono::steady_clock::now() + kLongestClearing;
   while (!clears.poll() && std::chrono::steady_clock::now() < last) std::this_thread::sleep_for(kClearingLook);
+  std::uint32_t frames = 0;
+  return pread(answer.number(), &frames, sizeof frames, 0) == sizeof frames ? frames : 0;
 }
 
 // Jobs are started from these, which are found once: programs are started to find them.
@@ -103,11 +110,28 @@ void fail_if_preempted(const options::RenderOptions& options, const Starting& st
                   "the same command goes on with the missing frames");
 }
 
-// One job as a person sees it.
-Remains show_job(const child::Command& command, const options::RenderOptions& options, Display& display,
-                 const Adviser& adviser) {
+// Waits until it is known, after a job that ended well.
+bool is_missed(SeenFolder& folder) {
+  for (; folder.is_open(); std::this_thread::sleep_for(kFolderLook)) folder.look_for_frames(SeenFolder::Clock::now());
+  return folder.is_missed();
+}
+
+Failure no_frames_for_videos(const std::string& machine, const options::RenderOptions& options) {
+  return Failure("the host writes frames into this folder on " + machine +
+                     ", and this machine, which makes videos of them, does not see them",
+                 options.folder, "put the folder or the video where all machines see it, or start this there");
+}
+
+std::string elsewhere_text(const std::string& folder, const std::string& machine) {
+  return "the folder " + folder + " is on " + machine + ", and this machine does not see it";
+}
+
+// One job as a person sees it. `host`: its host's machine.
+Remains show_job(const child::Command& command, const options::RenderOptions& options,
+                 const std::function<std::string()>& host, Display& display, const Adviser& adviser) {
   display.print(shell_text(command));
   BackgroundText hint;
+  SeenFolder folder(options.folder);
   Job job(display);
   job.follow(command, {kSlowStart,
                        [&](child::Child&) {
@@ -116,9 +140,24 @@ Remains show_job(const child::Command& command, const options::RenderOptions& op
                        },
                        [&] {
                          if (const std::string text = hint.take(); !text.empty()) display.print(text);
-                       }});
+                         if (folder.look(job.remains().run, SeenFolder::Clock::now()) && options.videos.empty())
+                           display.print("warning: " + elsewhere_text(options.folder, host()));
+                       },
+                       [&] { return folder.is_missed() && !options.videos.empty(); }});
   display.settle();
-  return job.remains();
+  Remains remains = job.remains();
+  if (remains.well() ? is_missed(folder) : folder.is_missed()) remains.elsewhere = host();
+  if (!remains.elsewhere.empty() && !options.videos.empty() && remains.passed_on == 0)
+    throw no_frames_for_videos(remains.elsewhere, options);
+  return remains;
+}
+
+// The machine of the host of a job on `machines`, none: the options'. A scheduler that MARS does not know may place it
+// without a word.
+std::string host_of(const options::RenderOptions& options, const Starting& starting,
+                    const std::vector<Slots>& machines) {
+  const std::vector<Slots> used = machines.empty() ? machines_of(options, starting) : machines;
+  return used.empty() ? "another machine" : used.front().host;
 }
 
 std::optional<std::uint32_t> count_there(const std::string& folder, const std::vector<std::uint32_t>& frames) try {
@@ -130,11 +169,10 @@ std::optional<std::uint32_t> count_there(const std::string& folder, const std::v
 Supervisor::World world_of(const options::RenderOptions& options, const Starting& starting, Display& display,
                            const Adviser& adviser) {
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
-            return show_job(command_for(job, starting, machines), job, display, adviser);
+            const auto host = [&] { return host_of(job, starting, machines); };
+            return show_job(command_for(job, starting, machines), job, host, display, adviser);
           },
-          [&](const std::string& run) {
-            if (!options.folder.empty()) clear_ended_runs(options.folder, run);
-          },
+          [&](const std::string& run) { return options.folder.empty() ? 0 : clear_ended_runs(options.folder, run); },
           [&] { return machines_of(options, starting); },
           [&](std::chrono::seconds pause, const std::vector<std::string>& machines) {
             const Question question = question_of(options, starting);
@@ -149,9 +187,12 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
 
 // The account is of all jobs together, where there were several or the only one died after its last frame.
 std::string account_of(const Supervisor& supervisor, const std::string& folder, double seconds) {
-  if (supervisor.restarts() == 0 && supervisor.last().done) return done_text(*supervisor.last().done);
+  const std::string& machine = supervisor.last().elsewhere;
+  const std::string where = machine.empty() ? "" : "; " + elsewhere_text(folder, machine);
+  if (supervisor.restarts() == 0 && supervisor.last().done) return done_text(*supervisor.last().done) + where;
   return document::counted(supervisor.frames().there(), "frame") + " in " + folder + ", " +
-         document::formatted("%.1f", seconds) + " seconds, with " + document::counted(supervisor.restarts(), "restart");
+         document::formatted("%.1f", seconds) + " seconds, with " +
+         document::counted(supervisor.restarts(), "restart") + where;
 }
 
 // The number of frames, where nothing is left to render; of a measurement the host says so.

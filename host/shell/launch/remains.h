@@ -18,9 +18,11 @@ struct Remains {
   std::optional<events::Resumed> resumed;
   std::optional<events::Booted> booted;  // once all nodes were there
   std::vector<std::uint32_t> taken;      // frames, as they came
+  std::uint32_t recorded = 0;            // frames that its run had rendered, once it has ended; 0: that is not known
   std::optional<events::Drawing> drawing;
   std::optional<events::Fault> fault;
   std::optional<events::Done> done;
+  std::string elsewhere;  // the machine where its frames are, where this one does not see them; "": it sees them
   std::string ended_for;  // why we ended it: what it did not say or do; "": we did not
   child::Ending ending;
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none
@@ -34,6 +36,8 @@ struct Remains {
   }
   // All its frames are where they belong, though it may have had to be ended.
   bool well() const { return done && (ending.well() || !ended_for.empty()); }
+  // Frames that it brought.
+  std::uint32_t brought() const { return std::max(progress.done(), recorded); }
 };
 
 }  // namespace mars::launch

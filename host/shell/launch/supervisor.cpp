@@ -51,7 +51,7 @@ void Supervisor::run_job(const options::RenderOptions& options) {
   entered_ = entered_ || !last_.run.empty();
   booted_ = booted_ || last_.booted;
   rendered_ = rendered_ || !last_.taken.empty();
-  if (!last_.well()) world_.clear(last_.run);
+  if (!last_.well()) last_.recorded = world_.clear(last_.run);
 }
 
 // A job that did not come so far as to look into the folder says nothing.
@@ -62,7 +62,7 @@ void Supervisor::count_frames() {
   frames_.set_count(last_.resumed ? last_.resumed->of : last_.progress.of());
   if (there < frames_.there()) world_.print(loss_text(there));
   host_moved_ = false;
-  frames_.count(there, static_cast<std::uint32_t>(last_.taken.size()) - lost());
+  frames_.count(there, std::max(static_cast<std::uint32_t>(last_.taken.size()) - lost(), last_.recorded));
   if (frames_.complete() && !last_.well()) look_for_frames();
   advanced_ = frames_.there() > most_there_;
   most_there_ = std::max(most_there_, frames_.there());

@@ -28,8 +28,9 @@ class Supervisor {
   struct World {
     // One job to its end. `machines`: to be used instead of the options'; none: the options'.
     std::function<Remains(const options::RenderOptions& options, const std::vector<Slots>& machines)> run_job;
-    // After a job died, whose host had this run in the folder: clears away what it left. "": it had none.
-    std::function<void(const std::string& run)> clear;
+    // After a job died, whose host had this run in the folder, "" for none: clears away what it left, and gives the
+    // number of frames that it had rendered, also those that it had not heard of; 0: that is not known.
+    std::function<std::uint32_t(const std::string& run)> clear;
     // The machines of the job; none where it knows only this one.
     std::function<std::vector<Slots>()> machines;
     // Waits, and gives those of the machines that answer. Throws child::Stopped where a person stops it.

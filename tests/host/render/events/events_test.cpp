@@ -71,6 +71,16 @@ TEST(Progress, CountsEverySecondOnce) {
   EXPECT_EQ(progress.of(), 12u);
 }
 
+// Frames are counted when their files are there, which need not be the order in which they came.
+TEST(Progress, AFrameThatIsCountedLateTookNoTime) {
+  Progress progress;
+  progress.count(FrameKind::inbetween, 1, 5.0);
+  progress.count(FrameKind::keyframe, 0, 3.0);
+  progress.count(FrameKind::inbetween, 0, 5.5);
+  EXPECT_EQ(progress.keyframes.seconds, 0);
+  EXPECT_EQ(progress.inbetweens.seconds, 5.5);
+}
+
 // One keyframe of 4 seconds and eight inbetweens of half a second are left.
 TEST(Progress, ExpectsEachKindToTakeAsLongAsBefore) {
   Progress progress;

@@ -289,10 +289,46 @@ TEST(FrameFolder, ARunOnAnotherMachineThatIsKnownToHaveEndedIsInNobodysWay) {
   run_and_kill(folder.path(), of_frames({1, 2}), {1}, elsewhere);
   clear_ended_runs(folder.path(), "another-run");
   EXPECT_TRUE(fs::exists(folder / ".runs"));
-  clear_ended_runs(folder.path(), file_of_run(folder.path(), ".claim").stem());
+  EXPECT_EQ(clear_ended_runs(folder.path(), file_of_run(folder.path(), ".claim").stem()), 1u);
   EXPECT_FALSE(fs::exists(folder / ".runs"));
   const FrameFolder next(folder.path(), of_frames({1, 2}));
   EXPECT_EQ(next.frames(), std::vector<std::uint32_t>{2}) << "what it had rendered is there";
+}
+
+std::string name_of_run(const fs::path& folder) { return file_of_run(folder, ".claim").stem(); }
+
+// Nodes write them, and the run hears of them later.
+TEST(FrameFolder, WholeFilesOfWhichAnEndedRunHadNotHeardAreThere) {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  fill(folder / "same", of_frames({2}), 7);
+  Manifest another = of_frames({5});
+  another.checksum = std::string(32, 'b');
+  fill(folder / "another", another, 7);
+  run_and_kill(out, of_frames({1, 2, 5, 11}), {1});
+  fs::copy(folder / "same/frame-0002.png", out);
+  fs::copy(folder / "another/frame-0005.png", out);
+  EXPECT_NE(hash_of(read_manifest(out), 2), "") << "also before anybody clears the run away";
+  EXPECT_EQ(clear_ended_runs(out, name_of_run(out)), 2u);
+  EXPECT_FALSE(fs::exists(out / ".runs"));
+  const Verdict verdict = verify_folder(out);
+  ASSERT_EQ(verdict.troubles.size(), 2u);
+  EXPECT_EQ(verdict.troubles[0].frame, 5u);
+  EXPECT_TRUE(document::holds(verdict.troubles[0].reason, "before it recorded the pixels")) << "it is another film's";
+  EXPECT_EQ(verdict.troubles[1].reason, "missing");
+  const FrameFolder next(out, of_frames({1, 2, 5, 11}));
+  EXPECT_EQ(next.frames(), (std::vector<std::uint32_t>{5, 11}));
+}
+
+TEST(FrameFolder, ARunThatFailsWhileItsNodesWriteLeavesItsClaimToWhoKnowsThatTheyHaveEnded) {
+  const test::TemporaryFolder folder;
+  const fs::path out = folder / "out";
+  fill(folder / "same", of_frames({2}), 7);
+  { FrameFolder(out, of_frames({1, 2})).add_probe(); }
+  fs::copy(folder / "same/frame-0002.png", out);
+  EXPECT_EQ(clear_ended_runs(out), 0u) << "this process lives, and may be writing";
+  EXPECT_EQ(clear_ended_runs(out, name_of_run(out)), 1u);
+  EXPECT_EQ(hash_of(read_manifest(out), 2), hash_of(read_manifest(folder / "same"), 2));
 }
 
 // A run that was stopped so long that another machine took its claim away does not write over that one's frames.

@@ -37,6 +37,8 @@ TEST(Diagnosis, APersonWhoStopsItKnowsWhy) {
   remains.passed_on = SIGINT;
   remains.progress.keyframes = {2, 3, 1};
   EXPECT_EQ(message(remains), "out: stopped by Interrupt after 2 of 3 frames (the same command goes on)");
+  remains.recorded = 3;
+  EXPECT_TRUE(document::holds(message(remains), "after 3 of 3 frames")) << "nodes had written more than was reported";
 }
 
 TEST(Diagnosis, OfAKilledRank) {

@@ -78,7 +78,11 @@ class SupervisorOf : public testing::Test {
            jobs_.pop_front();
            return next;
          },
-         [this](const std::string& run) { cleared_.push_back(run); }, [this] { return machines_; },
+         [this](const std::string& run) {
+           cleared_.push_back(run);
+           return recorded_;
+         },
+         [this] { return machines_; },
          [this](std::chrono::seconds pause, const std::vector<std::string>&) {
            pauses_.push_back(pause.count());
            if (stops_) throw child::Stopped("stopped by Terminated", "", "");
@@ -100,6 +104,7 @@ class SupervisorOf : public testing::Test {
   bool stops_ = false;  // a person, in the pause
   std::string printed_;
   std::vector<std::string> cleared_;             // runs
+  std::uint32_t recorded_ = 0;                   // frames of such a run
   std::optional<std::set<std::uint32_t>> seen_;  // frames in the folder
 };
 
@@ -279,6 +284,14 @@ TEST_F(SupervisorOf, AJobThatDiesIsStartedAgainWithWhatIsMissing) {
   EXPECT_EQ(printed_,
             "machine n2: node 1 was killed by signal 9 (Killed)\n"
             "starting again (1 of 5) with 8 nodes; 2 of 5 frames are there\n");
+  EXPECT_EQ(supervisor.frames().there(), 5u);
+}
+
+TEST_F(SupervisorOf, FilesOfWhichTheHostHadNotHeardAreThere) {
+  recorded_ = 4;
+  Supervisor supervisor = supervise({killed(1, {}, {0, 2}, 5), done({1}, 5, 4)});
+  supervisor.render();
+  EXPECT_TRUE(document::holds(printed_, "4 of 5 frames are there\n")) << printed_;
   EXPECT_EQ(supervisor.frames().there(), 5u);
 }
 
