@@ -65,9 +65,10 @@ struct Starting {
 
 // Settles the number of nodes and the backend.
 Starting prepare(options::RenderOptions& options, const std::filesystem::path& self) {
-  const std::string path = child::program_path(child::own_environment());
+  const child::Environment environment = child::own_environment();
+  const std::string path = child::program_path(environment);
   Starting starting{find_programs(self, path), {}, path};
-  options.backend = choose_backend(options.backend, starting.programs);
+  options.backend = choose_backend(options, starting.programs, environment);
   starting.surroundings = look_around(path);
   if (options.nodes == 0) options.nodes = default_nodes(options, starting.surroundings);
   options::check_nodes(options, cores_in_use(options, starting.surroundings));
@@ -88,6 +89,13 @@ std::vector<Slots> machines_of(const options::RenderOptions& options, const Star
   if (options.backend != options::Backend::mpi) return {};
   if (!options.hostfile.empty()) return read_hostfile(options.hostfile);
   return slurm_machines(starting.surroundings.environment, starting.path);
+}
+
+// None where ranks are more than slots: they go round over the machines then.
+std::vector<Slots> by_rank(const options::RenderOptions& options, const std::vector<Slots>& machines) {
+  std::uint64_t slots = 0;
+  for (const Slots& each : machines) slots += each.count;
+  return options.nodes < slots ? machines : std::vector<Slots>();
 }
 
 Question question_of(const options::RenderOptions& options, const Starting& starting) {
@@ -130,7 +138,10 @@ std::optional<std::uint32_t> count_there(const std::string& folder, const std::v
 Supervisor::World world_of(const options::RenderOptions& options, const Starting& starting, Display& display,
                            const Adviser& adviser) {
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
-            return show_job(command_for(job, starting, machines), job, display, adviser);
+            Remains remains = show_job(command_for(job, starting, machines), job, display, adviser);
+            if (!remains.booted && remains.passed_on == 0)
+              remains.machines = by_rank(job, machines.empty() ? machines_of(job, starting) : machines);
+            return remains;
           },
           [&](const std::string& run) {
             if (!options.folder.empty()) clear_ended_runs(options.folder, run);
