@@ -91,26 +91,26 @@ std::string machine_of(std::uint32_t rank, const std::vector<Slots>& machines) {
 
 // "/opt/mars-node: error while loading shared libraries: libpng16.so.16: cannot open shared object file: ...", and
 // later "Process name: [[6930,1],2]", which is the rank of the process that ended first.
-void name_library(const std::string& line, const std::vector<Slots>& machines, Failure& failure) {
+std::optional<Failure> unloaded_library(const std::string& line, const std::vector<Slots>& machines,
+                                        const char* remedy) {
   std::string_view program = std::string_view(line).substr(0, line.find(kNoLibrary));
   std::string library = word_behind(line, kNoLibrary).value_or("");
-  if (!program.ends_with(": ") || !library.ends_with(':')) return;
+  if (!program.ends_with(": ") || !library.ends_with(':')) return std::nullopt;
   program.remove_suffix(2);
   program.remove_prefix(program.rfind(' ') + 1);
   library.pop_back();
-  failure.problem = "the library " + library + " is missing, which " + std::string(program) + " needs";
   TextReader words(line);
   const auto rank = words.find("Process name: [[") && words.find("],") ? words.number() : std::nullopt;
-  if (const std::string machine = rank ? machine_of(*rank, machines) : ""; !machine.empty())
-    failure.where = "machine " + machine;
+  const std::string machine = rank ? machine_of(*rank, machines) : "";
+  return Failure(std::string(program) + " cannot load the library " + library,
+                 machine.empty() ? "" : "machine " + machine, remedy);
 }
 
 // "Executable: /opt/mars-node", and before or behind it "Node: n3".
-void name_program(const std::string& line, Failure& failure) {
+std::optional<Failure> missing_program(const std::string& line, const char* remedy) {
   const auto program = word_behind(line, "Executable:"), machine = word_behind(line, "Node:");
-  if (!program || !machine) return;
-  failure.where = "machine " + *machine;
-  failure.problem = "there is no program " + *program + " that can be run";
+  if (!program || !machine) return std::nullopt;
+  return Failure("there is no program " + *program + " that can be run", "machine " + *machine, remedy);
 }
 
 }  // namespace
@@ -122,10 +122,10 @@ std::optional<Failure> meaning_of(const std::string& text, const std::vector<Slo
   const auto* known = std::find_if(kTable.begin(), kTable.end(),
                                    [&](const MpiWords& each) { return line.find(each.words) != std::string::npos; });
   if (known == kTable.end()) return std::nullopt;
-  Failure failure(known->problem, "", known->remedy);
-  if (known->words == kNoLibrary) name_library(line, machines, failure);
-  if (known->problem == kNoPrograms) name_program(line, failure);
-  return failure;
+  std::optional<Failure> named;
+  if (known->words == kNoLibrary) named = unloaded_library(line, machines, known->remedy);
+  if (known->problem == kNoPrograms) named = missing_program(line, known->remedy);
+  return named ? named : Failure(known->problem, "", known->remedy);
 }
 
 }  // namespace mars::launch

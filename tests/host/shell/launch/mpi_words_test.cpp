@@ -58,13 +58,13 @@ TEST(MpiWords, NameTheLibraryAndTheMachineThatLacksIt) {
       "file or directory\n-----\nmpirun detected that one or more processes exited with non-zero status, thus causing\n"
       "the job to be terminated. The first process to do so was:\n\n  Process name: [[6930,1],2]\n  Exit code:    "
       "127\n";
-  const std::string missing = "the library libpng16.so.16 is missing, which /opt/mars-node needs";
+  const std::string missing = "/opt/mars-node cannot load the library libpng16.so.16";
   EXPECT_EQ(meaning_of(words, {{"n1", 2}, {"n2", 2}, {"n3", 2}, {"n4", 2}})->what(), "machine n2: " + missing + kThere);
   EXPECT_EQ(meaning_of(words, {{"n1", 1}, {"n2", 1}})->what(), missing + kThere) << "more ranks than slots";
   EXPECT_EQ(meaning(words), missing + kThere);
   EXPECT_EQ(meaning("orted: error while loading shared libraries: libopen-rte.so.40: cannot open shared object file\n"
                     "ORTE was unable to reliably start one or more daemons.\n"),
-            "the library libopen-rte.so.40 is missing, which orted needs" + kThere);
+            "orted cannot load the library libopen-rte.so.40" + kThere);
   for (const char* cut : {"error while loading shared libraries:", ": error while loading shared libraries: x",
                           "a: error while loading shared libraries:  "})
     EXPECT_EQ(meaning(cut), "a machine lacks a library that MARS was built with" + kThere);
