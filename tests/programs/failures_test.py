@@ -232,7 +232,6 @@ class Starting(ProgramTest):
         nowhere, allocation = self.path_of_its_own(), {"SLURM_JOB_NUM_NODES": "4", "SLURMD_NODENAME": "n1"}
         render = ["render", TEAPOT, "-o", "out", "--frames", "0"]
         for words, more, says in [([*render, "--hostfile", others], {}, f"mpirun was not found, and {others} names other"),
-                                  (["studio", "--no-browser", "--hostfile", others], {}, "names other machines"),
                                   (render, allocation, "the Slurm job has 4 machines (load the module of ")]:
             self.fail_clearly(1, *words, says=says, env=dict(nowhere, **more))
             self.assertFalse((self.folder / "out").exists())
