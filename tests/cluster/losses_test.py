@@ -73,7 +73,7 @@ class Losses(ClusterTest):
         claims = ["mars", "render", film, "-o", "out", "--backend", "threads", "--nodes", "1"]
         claiming = subprocess.Popen([TESTBED, "exec", "n1", *map(str, claims)], cwd=self.folder, env=CLUSTER,
                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.addCleanup(claiming.wait, SOON)
+        self.addCleanup(claiming.wait, SECONDS)
         self.addCleanup(testbed, "exec", "n1", "pkill", "-TERM", "-x", "mars")
         wait_until(lambda: list((self.folder / "out").glob("*.png")), SECONDS, "no frame")
         self.assertRefused(film, "another run, process")

@@ -74,14 +74,15 @@ const Variables kKeepalive = {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
                               {"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
                               {"OMPI_MCA_oob_tcp_keepalive_probes", "3"}};
 
-// What ssh starts has an environment of its own. Open MPI writes the folders into a shell's line as they are.
+// Programs that ssh starts have an environment of their own. Open MPI writes the folders into a shell's line as they
+// are.
 void add_libraries(child::Command& command, const Surroundings& surroundings) {
   const std::string folders = surroundings.environment.value("LD_LIBRARY_PATH").value_or("");
   if (!folders.empty() && document::shell_word(folders) == folders)
     add_settings(command, {{"OMPI_MCA_plm_rsh_pass_libpath", folders}}, surroundings);
 }
 
-// What makes mpirun look for other machines, beside a hostfile of ours and batch systems.
+// These make mpirun look for other machines, beside a hostfile of ours and batch systems.
 constexpr std::array kOtherMachines = {"OMPI_MCA_orte_default_hostfile", "HYDRA_HOST_FILE"};
 
 bool on_this_machine_alone(const options::RenderOptions& options, const Surroundings& surroundings) {

@@ -91,7 +91,7 @@ std::vector<Slots> machines_of(const options::RenderOptions& options, const Star
   return slurm_machines(starting.surroundings.environment, starting.path);
 }
 
-// None where ranks are more than slots: they go round over the machines then.
+// The machines in the order of ranks; none where ranks are more than slots: they go round over the machines then.
 std::vector<Slots> by_rank(const options::RenderOptions& options, const std::vector<Slots>& machines) {
   std::uint64_t slots = 0;
   for (const Slots& each : machines) slots += each.count;

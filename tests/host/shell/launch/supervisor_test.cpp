@@ -246,7 +246,7 @@ TEST_F(SupervisorOf, AJobThatDoesNotStartForAReasonIsNotStartedAgain) {
   }
 }
 
-// What Open MPI says besides where a rank ends for a reason that it gives, as recorded on several machines.
+// Open MPI says these besides where a rank ends for a reason that it gives, as recorded on several machines.
 TEST_F(SupervisorOf, AReasonThatARankGivesIsNoLossThoughConnectionsBreak) {
   for (const char* besides :
        {"An MPI communication peer process has unexpectedly disconnected.",
