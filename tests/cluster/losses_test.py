@@ -56,6 +56,28 @@ class Losses(ClusterTest):
         testbed("exec", "n3", "kill", "-9", self.processes("n3", "mars-node")[0])
         self.assertEnds("machine n3: node 2 was killed by signal 9", SOON, HOSTS)
 
+    def assertRefused(self, film, says):
+        """At once, though Open MPI reports connections that broke."""
+        done = testbed("exec", "n1", "mars", "render", film, "-o", "out", "--hostfile", self.hostfile, cwd=self.folder)
+        self.assertEqual(done.returncode, 1)
+        self.assertNotIn("starting again", done.stdout)
+        self.assertClear(done.stderr, says)
+        self.assertNotIn("frames are there", done.stderr)
+
+    def test_a_misspelt_key_is_no_loss(self):
+        film = self.write("film.json", dict(spinning_teapot(8, [160, 90]), camrea=1))
+        self.assertRefused(film, "camrea: is no key of a film (did you mean 'camera'?)")
+
+    def test_a_folder_that_another_run_claims_is_no_loss(self):
+        film = self.write("film.json", spinning_teapot(ENDLESS, [160, 90]))
+        claims = ["mars", "render", film, "-o", "out", "--backend", "threads", "--nodes", "1"]
+        claiming = subprocess.Popen([TESTBED, "exec", "n1", *map(str, claims)], cwd=self.folder, env=CLUSTER,
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(claiming.wait, SECONDS)
+        self.addCleanup(testbed, "exec", "n1", "pkill", "-TERM", "-x", "mars")
+        wait_until(lambda: list((self.folder / "out").glob("*.png")), SECONDS, "no frame")
+        self.assertRefused(film, "another run, process")
+
     def test_goes_on_after_a_killed_node(self):
         self.start(LONG)
         testbed("exec", "n3", "kill", "-9", self.processes("n3", "mars-node")[0])

@@ -1,5 +1,7 @@
 """The same pixels across the hosts of a cluster, however the film is started."""
 
+import pathlib
+import re
 import shutil
 
 from virtual_cluster import (HOSTS, PROGRAMS, SECONDS, SOURCES, TESTBED, ClusterTest, ProgramTest, events,
@@ -104,6 +106,28 @@ class Rendering(ClusterTest):
                                     self.film, "-o", "out", *more).stdout
         self.assertShown(run(), 7)
         self.assertShown(run("--nodes", 16, "--overwrite"), 16)
+
+    def hide(self, host, file):
+        """For the rest of the test, nothing of the file can be read or run on the host."""
+        self.on(host, "mount", "--bind", "/dev/null", file)
+        self.addCleanup(testbed, "exec", host, "umount", file)
+
+    def test_a_library_that_a_machine_lacks(self):
+        needed = self.succeed("ldd", PROGRAMS / "mars-node")
+        name, library = re.search(r"(libpng\S+) => (\S+)", needed).groups()
+        self.hide("n3", pathlib.Path(library).resolve())
+        start = ["mars", "render", self.film, "-o", "out", "--hostfile", self.hostfile]
+        self.assertClear(self.on("n1", *start, code=1).stderr,
+                         f"machine n3: {PROGRAMS}/mars-node cannot load the library ")
+        (self.folder / "lib").mkdir()
+        shutil.copy(library, self.folder / "lib" / name)
+        printed = self.on("n1", "env", f"LD_LIBRARY_PATH={self.folder}/lib", *start).stdout
+        self.assertShown(printed, 7)
+
+    def test_a_program_that_a_machine_lacks(self):
+        self.hide("n3", PROGRAMS / "mars-node")
+        done = self.on("n1", "mars", "render", self.film, "-o", "out", "--hostfile", self.hostfile, code=1)
+        self.assertClear(done.stderr, f"machine n3: there is no program {PROGRAMS}/mars-node that can be run")
 
     def test_the_doctor_sees_every_machine(self):
         look = lambda code: self.on("n0", "salloc", "--quiet", "--nodes=4", "--ntasks=8", "mars", "doctor",

@@ -226,6 +226,20 @@ class Starting(ProgramTest):
                             env=self.path_of_its_own())
         self.assertIn("mars-threads", printed)
 
+    def test_threads_do_not_stand_in_for_other_machines(self):
+        """By a hostfile, in an allocation; of NX programs, too. A hostfile of this machine alone needs no mpirun."""
+        others, here = self.write("others", "localhost\nn2 slots=4\n"), self.write("here", "localhost slots=4\n")
+        nowhere, allocation = self.path_of_its_own(), {"SLURM_JOB_NUM_NODES": "4", "SLURMD_NODENAME": "n1"}
+        render = ["render", TEAPOT, "-o", "out", "--frames", "0"]
+        for words, more, says in [([*render, "--hostfile", others], {}, f"mpirun was not found, and {others} names other"),
+                                  (render, allocation, "the Slurm job has 4 machines (load the module of ")]:
+            self.fail_clearly(1, *words, says=says, env=dict(nowhere, **more))
+            self.assertFalse((self.folder / "out").exists())
+        nx = self.run_program("mars-nx", "run", "/bin/true", env=dict(nowhere, **allocation))
+        self.assertEqual(nx.returncode, 1)
+        self.assertIn("the Slurm job has 4 machines (load the module of ", nx.stderr)
+        self.assertIn("mars-threads", self.succeed("mars", *render, "--hostfile", here, env=nowhere))
+
     @needs_mpi
     def test_no_remote_shell(self):
         (self.folder / "mpirun").symlink_to(shutil.which(OWN_MPIRUN[0]))

@@ -98,6 +98,16 @@ class Installed(SideBySide, Installation):
                     self.assertFalse(os.fsencode(place) in content, f"{file} holds {place}")
 
     @needs("readelf")
+    def test_programs_find_libraries_outside_of_system_paths(self):
+        """In the folders in which the build found them."""
+        def folders(program):
+            printed = subprocess.run(["readelf", "-dW", program], check=True, capture_output=True, text=True).stdout
+            return set(":".join(re.findall(r"Library (?:runpath|rpath): \[(.*)\]", printed)).split(":")) - {""}
+        for program in [*STARTERS, *["mars-node"] * HAVE_MPI]:
+            built = {folder for folder in folders(BUILD / "bin" / program) if not folder.startswith(str(BUILD))}
+            self.assertEqual(folders(self.prefix / "bin" / program), built, program)
+
+    @needs("readelf")
     def test_programs_are_hardened(self):
         """They lie anywhere in memory, their stack is no code, and what the loader wrote stays as it is."""
         seen = 0

@@ -5,6 +5,7 @@
 
 #include "host/content/document/text.h"
 #include "host/render/farm/node_memory.h"
+#include "host/shell/launch/asked_machines.h"
 #include "host/shell/launch/text_reader.h"
 
 namespace mars::doctor {
@@ -44,13 +45,14 @@ Finding check_mpi(const Facts& facts) {
   const char* about = "MPI";
   const launch::Mpi mpi = facts.programs.mpi;
   const std::string name = launch::name_of(mpi);
-  const std::string load = "(module load " + std::string(mpi == launch::Mpi::mpich ? "mpich" : "openmpi") + ")";
+  const std::string load = "(module load " + std::string(launch::module_of(mpi)) + ")";
   if (!facts.programs.mpirun) {
-    const std::string remedy = "install " + name + " (Debian: " + launch::package_of(mpi) + "), or load it " + load;
-    if (several_machines(facts) || !facts.programs.threads)
-      return {State::trouble, about, "mpirun was not found", remedy};
-    return {State::note, about, "mpirun was not found: nodes are threads of one process",
-            "for several machines " + remedy};
+    const std::string asked = launch::asked_machines("", facts.surroundings.environment);
+    const Failure missing = launch::no_mpirun(mpi, asked, "");
+    if (!asked.empty() || several_machines(facts) || !facts.programs.threads)
+      return {State::trouble, about, missing.problem, missing.remedy};
+    return {State::note, about, missing.problem + ": nodes are threads of one process",
+            "for several machines " + missing.remedy};
   }
   const std::string where = ", " + facts.programs.mpirun->string();
   if (!facts.mpirun_version) return {State::good, about, name + where, ""};

@@ -8,6 +8,7 @@
 #include "host/child/environment.h"
 #include "host/child/programs.h"
 #include "host/shell/doctor/show.h"
+#include "host/shell/launch/asked_machines.h"
 
 namespace mars::doctor {
 namespace {
@@ -77,7 +78,9 @@ std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding
 // None where there is nothing to start, which the checks report.
 std::optional<launch::Trial> try_to_start(const DoctorOptions& options, const launch::Programs& programs,
                                           const std::filesystem::path& self) {
-  if (!programs.threads && !(programs.mpirun && programs.host && programs.node)) return std::nullopt;
+  const bool mpi = programs.mpirun && programs.host && programs.node;
+  const bool threads = programs.threads && launch::asked_machines("", child::own_environment()).empty();
+  if (!mpi && !threads) return std::nullopt;
   options::RenderOptions render;
   render.nodes = options.nodes;
   return launch::try_start(render, self);

@@ -11,13 +11,13 @@
 #include <string_view>
 #include <system_error>
 
-#include "hal/failure/failure.h"
 #include "hal/failure/process_limit.h"
 #include "hal/messages/settings.h"
 #include "host/child/environment.h"
 #include "host/child/process.h"
 #include "host/child/programs.h"
 #include "host/content/document/shell_word.h"
+#include "host/shell/launch/asked_machines.h"
 #include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/text_reader.h"
 #include "topology/machine.h"
@@ -74,13 +74,19 @@ const Variables kKeepalive = {{"OMPI_MCA_oob_tcp_keepalive_time", "10"},
                               {"OMPI_MCA_oob_tcp_keepalive_intvl", "5"},
                               {"OMPI_MCA_oob_tcp_keepalive_probes", "3"}};
 
-// What makes mpirun look for other machines, beside a hostfile of ours and Slurm.
-constexpr std::array kOtherMachines = {"PBS_NODEFILE",      "PE_HOSTFILE",    "LSB_HOSTS",
-                                       "LSB_DJOB_HOSTFILE", "LSB_MCPU_HOSTS", "OMPI_MCA_orte_default_hostfile",
-                                       "HYDRA_HOST_FILE"};
+// Programs that ssh starts have an environment of their own. Open MPI writes the folders into a shell's line as they
+// are.
+void add_libraries(child::Command& command, const Surroundings& surroundings) {
+  const std::string folders = surroundings.environment.value("LD_LIBRARY_PATH").value_or("");
+  if (!folders.empty() && document::shell_word(folders) == folders)
+    add_settings(command, {{"OMPI_MCA_plm_rsh_pass_libpath", folders}}, surroundings);
+}
+
+// These make mpirun look for other machines, beside a hostfile of ours and batch systems.
+constexpr std::array kOtherMachines = {"OMPI_MCA_orte_default_hostfile", "HYDRA_HOST_FILE"};
 
 bool on_this_machine_alone(const options::RenderOptions& options, const Surroundings& surroundings) {
-  return options.hostfile.empty() && surroundings.tasks == 0 &&
+  return options.hostfile.empty() && surroundings.tasks == 0 && !batch_lists_machines(surroundings.environment) &&
          std::none_of(kOtherMachines.begin(), kOtherMachines.end(),
                       [&](const char* name) { return surroundings.environment.value(name).has_value(); });
 }
@@ -102,11 +108,18 @@ Mpi our_mpi() { return MARS_MPICH ? Mpi::mpich : Mpi::open_mpi; }
 
 const char* name_of(Mpi mpi) { return mpi == Mpi::mpich ? "MPICH" : "Open MPI"; }
 const char* package_of(Mpi mpi) { return mpi == Mpi::mpich ? "mpich" : "openmpi-bin"; }
+const char* module_of(Mpi mpi) { return mpi == Mpi::mpich ? "mpich" : "openmpi"; }
 
 std::optional<fs::path> find_mpirun(Mpi mpi, const std::string& path) {
   static constexpr std::string_view kOpenMpi[] = {"mpirun.openmpi", "mpirun"};
   static constexpr std::string_view kMpich[] = {"mpirun.mpich", "mpiexec.hydra", "mpirun"};
   return mpi == Mpi::mpich ? child::find_first_program(kMpich, path) : child::find_first_program(kOpenMpi, path);
+}
+
+Failure no_mpirun(Mpi mpi, const std::string& asked, const std::string& without) {
+  return Failure("mpirun was not found" + (asked.empty() ? "" : ", and " + asked), "",
+                 "load the module of " + std::string(name_of(mpi)) + ", for example module load " + module_of(mpi) +
+                     ", or install it (Debian: " + package_of(mpi) + ")" + without);
 }
 
 std::optional<fs::path> find_loopback(const fs::path& self) {
@@ -195,15 +208,17 @@ std::uint32_t cores_in_use(const options::RenderOptions& options, const Surround
   return cores != 0 ? cores : surroundings.tasks;
 }
 
-options::Backend choose_backend(options::Backend asked, const Programs& programs) {
+options::Backend choose_backend(const options::RenderOptions& options, const Programs& programs,
+                                const child::Environment& environment) {
   const bool mpi = programs.mpirun && programs.host && programs.node;
-  const options::Backend backend = asked != options::Backend::automatic ? asked
-                                   : mpi                                ? options::Backend::mpi
-                                                                        : options::Backend::threads;
+  const bool automatic = options.backend == options::Backend::automatic;
+  const std::string asked = automatic && !mpi ? asked_machines(options.hostfile, environment) : "";
+  const options::Backend backend = !automatic              ? options.backend
+                                   : mpi || !asked.empty() ? options::Backend::mpi
+                                                           : options::Backend::threads;
   if (backend == options::Backend::mpi && !programs.mpirun) {
-    throw Failure("mpirun was not found", "",
-                  std::string("install ") + name_of(programs.mpi) + " (Debian: " + package_of(programs.mpi) +
-                      "), or use --backend threads");
+    const std::string threads = ", or use --backend threads on this machine alone";
+    throw no_mpirun(programs.mpi, asked, options.hostfile.empty() ? threads : "");
   }
   if (backend == options::Backend::mpi && !mpi) {
     throw Failure("mars-host and mars-node were not found beside mars or in the PATH", "",
@@ -267,6 +282,7 @@ child::Command open_mpi_start(const options::RenderOptions& options, const Progr
     command.open_mpi = child::OpenMpi::on_this_machine;
   } else {
     add(kKeepalive);
+    add_libraries(command, surroundings);
     command.open_mpi = child::OpenMpi::on_several;
   }
   command.words = {programs.mpirun->string(), "--bind-to", "none"};
@@ -278,7 +294,6 @@ child::Command open_mpi_start(const options::RenderOptions& options, const Progr
   const std::uint32_t slots = surroundings.tasks != 0 ? surroundings.tasks : surroundings.cores;
   // Machines that are named have their own slots; what is more than these goes round over them.
   if (named || !options.hostfile.empty() || options.nodes + 1 > slots) command.words.emplace_back("--oversubscribe");
-  for (const std::string& name : surroundings.settings) command.words.insert(command.words.end(), {"-x", name});
   return command;
 }
 
@@ -298,13 +313,21 @@ child::Command mpi_start(const options::RenderOptions& options, const Programs& 
   return command;
 }
 
+void add_program(child::Command& command, std::uint32_t count, const fs::path& program, const Programs& programs,
+                 const Surroundings& surroundings) {
+  if (programs.mpi == Mpi::open_mpi)
+    for (const std::string& name : surroundings.settings) command.words.insert(command.words.end(), {"-x", name});
+  command.words.insert(command.words.end(), {"-n", std::to_string(count), program.string()});
+}
+
 child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,
                            const Surroundings& surroundings) {
   child::Command command = mpi_start(options, programs, surroundings);
   // Nodes bind themselves, each by its place on its machine.
-  command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
+  add_program(command, 1, *programs.host, programs, surroundings);
   add_arguments(command, options::Program::host, options);
-  command.words.insert(command.words.end(), {":", "-n", std::to_string(options.nodes), programs.node->string()});
+  command.words.emplace_back(":");
+  add_program(command, options.nodes, *programs.node, programs, surroundings);
   return command;
 }
 

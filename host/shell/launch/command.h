@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "hal/failure/failure.h"
 #include "host/child/command.h"
 #include "host/child/environment.h"
 #include "host/shell/launch/slots.h"
@@ -25,6 +26,7 @@ enum class Mpi { open_mpi, mpich };
 Mpi our_mpi();
 const char* name_of(Mpi mpi);
 const char* package_of(Mpi mpi);  // Debian's, with its mpirun
+const char* module_of(Mpi mpi);   // as clusters usually name it
 
 // Where the programs are that `mars render` starts; none: not installed.
 struct Programs {
@@ -40,6 +42,9 @@ struct Programs {
 
 // The first mpirun in `path`; a folder that has those of several MPIs distinguishes them by their names.
 std::optional<std::filesystem::path> find_mpirun(Mpi mpi, const std::string& path);
+
+// `asked`: the machines that the run was asked to use, as of asked_machines(); `without`: what a person may do instead.
+Failure no_mpirun(Mpi mpi, const std::string& asked, const std::string& without);
 
 // Beside `self`, or in ../libexec/mars or ../libexec/mars-nx from there.
 std::optional<std::filesystem::path> find_loopback(const std::filesystem::path& self);
@@ -77,13 +82,20 @@ std::uint32_t default_nodes(const options::RenderOptions& options, const Surroun
 // Of the machines that a rendering uses: other machines' slots stand for theirs. `options.backend` is settled.
 std::uint32_t cores_in_use(const options::RenderOptions& options, const Surroundings& surroundings);
 
-// Takes auto to one of the two. Throws Failure where the programs for the backend asked for are missing.
-options::Backend choose_backend(options::Backend asked, const Programs& programs);
+// Takes auto to one of the two: never to threads of this machine alone where a run was asked to use others
+// (asked_machines.h). Throws Failure where the programs for the backend are missing.
+options::Backend choose_backend(const options::RenderOptions& options, const Programs& programs,
+                                const child::Environment& environment);
 
 // mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'. Throws Failure
 // where the memory limit is too small for any MPI.
 child::Command mpi_start(const options::RenderOptions& options, const Programs& programs,
                          const Surroundings& surroundings);
+
+// One of mpirun's programs, with the settings for those of its processes that are on other machines: Open MPI hands
+// them on to the program that follows alone. Between two programs stands ":".
+void add_program(child::Command& command, std::uint32_t count, const std::filesystem::path& program,
+                 const Programs& programs, const Surroundings& surroundings);
 
 // mpirun with one host and options.nodes nodes; one process of as many threads. `options.nodes` is settled.
 child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,

@@ -78,7 +78,7 @@ Diagnosis cause(const Remains& remains, const std::string& words, const std::opt
   if (const auto own = own_words(remains.last_words)) return {advised(*own), {}};
   if (loss && loss->machine_lost) return {loss->failure, {}, loss->machine, true};
   if (loss && loss->in_words) return {advised(loss->failure), loss->node, loss->machine};
-  if (const auto known = meaning_of(words)) return {*known, {}};
+  if (const auto known = meaning_of(words, remains.machines)) return {*known, {}};
   return {advised(loss ? loss->failure : unknown(remains)), {}};
 }
 

@@ -72,9 +72,10 @@ struct Starting {
 
 // Settles the number of nodes and the backend.
 Starting prepare(options::RenderOptions& options, const std::filesystem::path& self) {
-  const std::string path = child::program_path(child::own_environment());
+  const child::Environment environment = child::own_environment();
+  const std::string path = child::program_path(environment);
   Starting starting{find_programs(self, path), {}, path};
-  options.backend = choose_backend(options.backend, starting.programs);
+  options.backend = choose_backend(options, starting.programs, environment);
   starting.surroundings = look_around(path);
   if (options.nodes == 0) options.nodes = default_nodes(options, starting.surroundings);
   options::check_nodes(options, cores_in_use(options, starting.surroundings));
@@ -95,6 +96,13 @@ std::vector<Slots> machines_of(const options::RenderOptions& options, const Star
   if (options.backend != options::Backend::mpi) return {};
   if (!options.hostfile.empty()) return read_hostfile(options.hostfile);
   return slurm_machines(starting.surroundings.environment, starting.path);
+}
+
+// The machines in the order of ranks; none where ranks are more than slots: they go round over the machines then.
+std::vector<Slots> by_rank(const options::RenderOptions& options, const std::vector<Slots>& machines) {
+  std::uint64_t slots = 0;
+  for (const Slots& each : machines) slots += each.count;
+  return options.nodes < slots ? machines : std::vector<Slots>();
 }
 
 Question question_of(const options::RenderOptions& options, const Starting& starting) {
@@ -170,7 +178,10 @@ Supervisor::World world_of(const options::RenderOptions& options, const Starting
                            const Adviser& adviser) {
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
             const auto host = [&] { return host_of(job, starting, machines); };
-            return show_job(command_for(job, starting, machines), job, host, display, adviser);
+            Remains remains = show_job(command_for(job, starting, machines), job, host, display, adviser);
+            if (!remains.booted && remains.passed_on == 0)
+              remains.machines = by_rank(job, machines.empty() ? machines_of(job, starting) : machines);
+            return remains;
           },
           [&](const std::string& run) { return options.folder.empty() ? 0 : clear_ended_runs(options.folder, run); },
           [&] { return machines_of(options, starting); },

@@ -197,11 +197,16 @@ std::optional<Loss> lost_connection(const std::string& line) {
   return std::nullopt;
 }
 
+// Two jobs that begin at once both make Open MPI's folder on a machine, and one of them fails.
+std::optional<Loss> lost_folder(const std::string& line) {
+  TextReader words(line);
+  if (!words.find("call to mkdir was unable to create") || !words.find("Error: File exists")) return std::nullopt;
+  return Loss{Failure("another job made Open MPI's folder at the same time", "", "start it again")};
+}
+
 // "An MPI communication peer process has unexpectedly disconnected. ... Peer host: n2": of a process that died, or
-// behind a link that was down. Which end of the connection failed it does not say. Connections also break where a
-// process ends for a reason that it gives.
-std::optional<Loss> lost_peer(const Remains& remains, const std::string& line) {
-  if (remains.gave_reason()) return std::nullopt;
+// behind a link that was down. Which end of the connection failed it does not say.
+std::optional<Loss> lost_peer(const std::string& line) {
   TextReader words(line);
   if (!words.find("peer process has unexpectedly disconnected")) return std::nullopt;
   const auto machine = words.find("Peer host: ") ? words.word() : std::nullopt;
@@ -216,14 +221,18 @@ bool never_started(const std::string& words) {
   return false;
 }
 
+// Connections also break, and daemons end, where a process leaves for a reason that it gives.
 std::optional<Loss> loss_in_words(const Remains& remains, const std::string& words) {
+  const bool explained = remains.gave_reason();
   if (auto loss = lost_rank(words, remains.booted)) return loss;
   if (auto loss = lost_process(words)) return loss;
-  if (auto loss = lost_machine(words, remains.booted)) return loss;
+  if (auto loss = lost_machine(words, remains.booted); loss && !explained) return loss;
   if (auto loss = lost_task(words)) return loss;
+  if (explained) return std::nullopt;
   if (auto loss = lost_daemon(words, remains.ending)) return loss;
+  if (auto loss = lost_folder(words)) return loss;
   if (auto loss = lost_connection(words)) return loss;
-  return lost_peer(remains, words);
+  return lost_peer(words);
 }
 
 // libevent, in which mpirun waits, warns of what is closed while it ends.
@@ -238,7 +247,7 @@ std::optional<Failure> loss_by_ending(const Remains& remains, const std::string&
   const std::string program = std::filesystem::path(remains.program).stem().string();  // mpirun.mpich is one
   if (signal != 0) return Failure(killed_by(program, signal), "", remedy_for(signal));
   const int other = signal_of_code(code);
-  if (other != 0 && !never_started(words))
+  if (other != 0 && !never_started(words) && !remains.gave_reason())
     return Failure(killed_by("the host or a node", other), "", remedy_for(other));
   // mpirun ends so when a signal asks it to end.
   if (code == 1 && gives_no_reason(remains.last_words) && !remains.fault)

@@ -23,16 +23,21 @@ constexpr const char* kOpenPorts =
     "open the ports between the machines, or name their network: export OMPI_MCA_btl_tcp_if_include=eth0 "
     "OMPI_MCA_oob_tcp_if_include=eth0";
 
+constexpr std::string_view kNoLibrary = "error while loading shared libraries:";
+constexpr const char* kNoPrograms = "a machine does not have MARS's programs";
+
 constexpr std::array kTable = {
     MpiWords{"not enough slots available", kTooFewSlots, kAskForMore},
     MpiWords{"are already filled", kTooFewSlots, kAskForMore},
     MpiWords{"detected an attempt to run as root", "Open MPI does not start as root",
              "use another user, or set OMPI_ALLOW_RUN_AS_ROOT=1 and OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"},
-    MpiWords{"error while loading shared libraries", "a machine lacks a library that MARS was built with",
-             "install the same MPI on every machine, or load it in the job (module load ...)"},
+    MpiWords{
+        kNoLibrary, "a machine lacks a library that MARS was built with",
+        "install it there, or name its folder in LD_LIBRARY_PATH (module load ...) where you start: MARS hands it on; "
+        "or install MARS by cmake --install, whose programs know the folders of their libraries"},
     MpiWords{"unrecognized argument", kWrongMpi, kOneMpi},
     MpiWords{"Error: unknown option", kWrongMpi, kOneMpi},
-    MpiWords{"execvp error on file", "a machine does not have MARS's programs",
+    MpiWords{"execvp error on file", kNoPrograms,
              "put them under the same path on every machine, as on a shared file system"},
     MpiWords{"HYDRA", kWrongMpi, kOneMpi},
     MpiWords{"call to mkdir was unable to create", "Open MPI cannot write its temporary files",
@@ -58,9 +63,9 @@ constexpr std::array kTable = {
              "ip link set lo up gives it, or use --backend threads"},
     MpiWords{"plm_rsh_agent", "there is neither ssh nor rsh to reach the other machines with",
              "install ssh (Debian: openssh-client), or start inside a Slurm job"},
-    MpiWords{"could not access or execute an executable", "a machine does not have MARS's programs",
+    MpiWords{"could not access or execute an executable", kNoPrograms,
              "put them under the same path on every machine, as on a shared file system"},
-    MpiWords{"unable to find the specified executable file", "a machine does not have MARS's programs",
+    MpiWords{"unable to find the specified executable file", kNoPrograms,
              "put them under the same path on every machine, as on a shared file system"},
     MpiWords{"unable to reliably start one or more daemons", "Open MPI cannot start on another machine",
              "ssh MACHINE true must work without a password, and Open MPI be under the same path on each"},
@@ -76,16 +81,51 @@ constexpr std::array kTable = {
     MpiWords{"not enough space for", "there is too little shared memory for messages", kMakeShmLarger},
 };
 
+std::string machine_of(std::uint32_t rank, const std::vector<Slots>& machines) {
+  for (const Slots& each : machines) {
+    if (rank < each.count) return each.host;
+    rank -= each.count;
+  }
+  return "";
+}
+
+// "/opt/mars-node: error while loading shared libraries: libpng16.so.16: cannot open shared object file: ...", and
+// later "Process name: [[6930,1],2]", which is the rank of the process that ended first.
+std::optional<Failure> unloaded_library(const std::string& line, const std::vector<Slots>& machines,
+                                        const char* remedy) {
+  std::string_view program = std::string_view(line).substr(0, line.find(kNoLibrary));
+  std::string library = word_behind(line, kNoLibrary).value_or("");
+  if (!program.ends_with(": ") || !library.ends_with(':')) return std::nullopt;
+  program.remove_suffix(2);
+  program.remove_prefix(program.rfind(' ') + 1);
+  library.pop_back();
+  TextReader words(line);
+  const auto rank = words.find("Process name: [[") && words.find("],") ? words.number() : std::nullopt;
+  const std::string machine = rank ? machine_of(*rank, machines) : "";
+  return Failure(std::string(program) + " cannot load the library " + library,
+                 machine.empty() ? "" : "machine " + machine, remedy);
+}
+
+// "Executable: /opt/mars-node", and before or behind it "Node: n3".
+std::optional<Failure> missing_program(const std::string& line, const char* remedy) {
+  const auto program = word_behind(line, "Executable:"), machine = word_behind(line, "Node:");
+  if (!program || !machine) return std::nullopt;
+  return Failure("there is no program " + *program + " that can be run", "machine " + *machine, remedy);
+}
+
 }  // namespace
 
 std::span<const MpiWords> mpi_words() { return kTable; }
 
-std::optional<Failure> meaning_of(const std::string& text) {
+std::optional<Failure> meaning_of(const std::string& text, const std::vector<Slots>& machines) {
   const std::string line = on_one_line(text);
   const auto* known = std::find_if(kTable.begin(), kTable.end(),
                                    [&](const MpiWords& each) { return line.find(each.words) != std::string::npos; });
   if (known == kTable.end()) return std::nullopt;
-  return Failure(known->problem, "", known->remedy);
+  std::optional<Failure> named;
+  if (known->words == kNoLibrary) named = unloaded_library(line, machines, known->remedy);
+  if (known->problem == kNoPrograms) named = missing_program(line, known->remedy);
+  return named ? named : Failure(known->problem, "", known->remedy);
 }
 
 }  // namespace mars::launch

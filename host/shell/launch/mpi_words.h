@@ -5,8 +5,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "hal/failure/failure.h"
+#include "host/shell/launch/slots.h"
 
 namespace mars::launch {
 
@@ -19,7 +21,8 @@ struct MpiWords {
 // Nearest to the cause first.
 std::span<const MpiWords> mpi_words();
 
-// The first of them that `text` holds, wherever its lines are broken.
-std::optional<Failure> meaning_of(const std::string& text);
+// The first of them that `text` holds, wherever its lines are broken; with the machine, program and library that it
+// names. `machines`: of the job, in the order of its ranks; none: not known.
+std::optional<Failure> meaning_of(const std::string& text, const std::vector<Slots>& machines = {});
 
 }  // namespace mars::launch

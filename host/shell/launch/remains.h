@@ -10,6 +10,7 @@
 
 #include "host/child/child.h"
 #include "host/render/events/events.h"
+#include "host/shell/launch/slots.h"
 
 namespace mars::launch {
 
@@ -28,11 +29,18 @@ struct Remains {
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none
   std::deque<std::string> last_words;  // lines of standard error, the last ones
   events::Progress progress;
-  std::string program;  // that was started
+  std::string program;            // that was started
+  std::vector<Slots> machines{};  // on which it was, in the order of its ranks; none: not known
 
-  // The host or a node reported why it ends: as an event, or on standard error as our programs do: "mars: ...".
+  // The host or a node reported why it ends: as an event, or on standard error as our programs do: "mars: ...". That
+  // another ceased to answer is no reason of its own.
   bool gave_reason() const {
-    return fault || std::ranges::any_of(last_words, [](const std::string& line) { return line.starts_with("mars: "); });
+    const auto is_own = [](const std::string& text) {
+      return text.find("MPI_") == std::string::npos && text.find("nothing was heard of the host") == std::string::npos;
+    };
+    if (fault) return is_own(fault->problem);
+    return std::ranges::any_of(last_words,
+                               [&](const std::string& line) { return line.starts_with("mars: ") && is_own(line); });
   }
   // All its frames are where they belong, though it may have had to be ended.
   bool well() const { return done && (ending.well() || !ended_for.empty()); }

@@ -42,7 +42,7 @@ void Supervisor::render() {
   for (const std::uint32_t frame : std::set(frames_.aside())) try_alone(frame);
   const std::vector<std::uint32_t> aside(frames_.aside().begin(), frames_.aside().end());
   if (!aside.empty())
-    throw Failure("the nodes that drew " + film::frames_text(aside) + " were killed each time; " + account(),
+    throw Failure("the nodes that drew " + film::frames_text(aside) + " were killed each time" + account(),
                   options_.folder, "please report it with the film");
 }
 
@@ -107,11 +107,12 @@ bool Supervisor::a_machine_is_gone() {
 Failure Supervisor::failure(const std::string& more) const {
   const Failure found = diagnose(last_, options_, world_.advice).failure;
   if (last_.passed_on != 0 || restarts_.all() == 0) return found;
-  return Failure(found.problem + more + "; " + account(), found.where, found.remedy);
+  return Failure(found.problem + more + account(), found.where, found.remedy);
 }
 
 std::string Supervisor::account() const {
-  return std::to_string(frames_.there()) + " of " + std::to_string(frames_.of()) + " frames are there";
+  if (frames_.of() == 0) return "";
+  return "; " + std::to_string(frames_.there()) + " of " + std::to_string(frames_.of()) + " frames are there";
 }
 
 void Supervisor::explain_death() {
@@ -149,9 +150,8 @@ void Supervisor::choose_machines(std::chrono::seconds pause) {
   const std::string host_before = chosen_.use.empty() ? names.front() : chosen_.use.front().host;
   chosen_ = machines_->choose(answering);
   if (chosen_.use.empty())
-    throw Failure("none of the machines answers: " + document::joined(names) +
-                      (frames_.of() > 0 ? "; " + account() : ""),
-                  options_.folder, "check their names, and that ssh NAME true works; the same command goes on then");
+    throw Failure("none of the machines answers: " + document::joined(names) + account(), options_.folder,
+                  "check their names, and that ssh NAME true works; the same command goes on then");
   const std::string& host = chosen_.use.front().host;
   if (host == host_before) return;
   host_moved_ = true;
@@ -162,8 +162,8 @@ void Supervisor::choose_machines(std::chrono::seconds pause) {
 std::set<std::string> Supervisor::ask(std::chrono::seconds pause, const std::vector<std::string>& machines) const try {
   return world_.ask(pause, machines);
 } catch (const child::Stopped& stop) {
-  throw Failure(stop.problem + " before the job was started again" + (frames_.of() > 0 ? "; " + account() : ""),
-                options_.folder, way_to_go_on(options_));
+  throw Failure(stop.problem + " before the job was started again" + account(), options_.folder,
+                way_to_go_on(options_));
 }
 
 void Supervisor::print_choice() const {
@@ -171,7 +171,7 @@ void Supervisor::print_choice() const {
                      std::to_string(restarts_.most()) + ") with " + document::counted(chosen_.nodes, "node");
   if (!chosen_.use.empty()) line += " on " + document::counted(chosen_.use.size(), "machine");
   if (!chosen_.left_out.empty()) line += ", without " + document::joined(chosen_.left_out);
-  world_.print(line + (frames_.of() > 0 ? "; " + account() : ""));
+  world_.print(line + account());
 }
 
 options::RenderOptions Supervisor::next_options() const {

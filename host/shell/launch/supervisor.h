@@ -70,7 +70,7 @@ class Supervisor {
   void print_choice() const;
   void try_alone(std::uint32_t frame);
   options::RenderOptions next_options() const;
-  std::string account() const;
+  std::string account() const;  // "; 3 of 5 frames are there"; "" before any job has counted them
 
   const options::RenderOptions options_;
   const World world_;

@@ -40,6 +40,13 @@ std::optional<std::uint32_t> TextReader::number() {
   return value;
 }
 
+std::optional<std::string> word_behind(std::string_view text, std::string_view words) {
+  TextReader reader(text);
+  if (!reader.find(words)) return std::nullopt;
+  reader.skip_space();
+  return reader.word();
+}
+
 std::string on_one_line(std::string_view text) {
   std::string line;
   for (const char c : text) {

@@ -31,6 +31,9 @@ class TextReader {
   std::string_view rest_;
 };
 
+// The word behind the first `words` in `text` and white space.
+std::optional<std::string> word_behind(std::string_view text, std::string_view words);
+
 // With one blank for each run of white space, none at the ends: help texts are wrapped at any word.
 std::string on_one_line(std::string_view text);
 

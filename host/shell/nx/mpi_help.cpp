@@ -52,13 +52,6 @@ bool says_nothing_new(std::string_view help) {
   return holds_one_of(help, kEnds);
 }
 
-std::optional<std::string> word_behind(const std::string& help, const char* words) {
-  launch::TextReader reader(help);
-  if (!reader.find(words)) return std::nullopt;
-  reader.skip_space();
-  return reader.word();
-}
-
 // "process rank 2 with PID 0 on node ada exited on signal 11 (Segmentation fault)", in the words for processes.
 std::optional<std::string> death_in(const std::string& help, bool has_host) {
   launch::TextReader words(help);
@@ -70,11 +63,11 @@ std::optional<std::string> death_in(const std::string& help, bool has_host) {
 }
 
 std::optional<Failure> failed_start_in(const std::string& help) {
-  if (const auto program = word_behind(help, "Executable:"))
-    return Failure("there is no such program on machine " + word_behind(help, "Node:").value_or("?"), *program,
+  if (const auto program = launch::word_behind(help, "Executable:"))
+    return Failure("there is no such program on machine " + launch::word_behind(help, "Node:").value_or("?"), *program,
                    "put it under the same path on every machine, as on a shared file system");
-  if (const auto program = word_behind(help, "Application name:"))
-    return Failure("cannot be started on machine " + word_behind(help, "Local host:").value_or("?"), *program,
+  if (const auto program = launch::word_behind(help, "Application name:"))
+    return Failure("cannot be started on machine " + launch::word_behind(help, "Local host:").value_or("?"), *program,
                    "start it there without mars-nx to see why");
   return std::nullopt;
 }

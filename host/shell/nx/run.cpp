@@ -8,6 +8,7 @@
 #include "hal/messages/settings.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
+#include "host/shell/launch/asked_machines.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/session_folders.h"
 #include "host/shell/nx/mpi_help.h"
@@ -59,41 +60,38 @@ void check_mpi_can_start(const NxRun& job, const NxPrograms& programs) {
                   "leave it out, or use --over processes");
 }
 
-// mpirun as it begins, and how many nodes it starts.
-child::Command mpi_start_of(const NxRun& job, const NxPrograms& programs, std::uint32_t& nodes) {
-  const std::string path = child::program_path(child::own_environment());
+child::Command mpi_command(const NxRun& job, const NxPrograms& programs) {
+  const child::Environment environment = child::own_environment();
+  const std::string path = child::program_path(environment);
   launch::Programs starters;
   starters.loopback = launch::find_loopback(child::own_file());
   starters.mpirun = launch::find_mpirun(starters.mpi, path);
   if (!starters.mpirun)
-    throw Failure("mpirun was not found", "",
-                  std::string("install ") + launch::name_of(starters.mpi) +
-                      " (Debian: " + launch::package_of(starters.mpi) + "), or use --over processes");
+    throw launch::no_mpirun(starters.mpi, launch::asked_machines(job.hostfile, environment),
+                            job.hostfile.empty() ? ", or use --over processes on this machine alone" : "");
   options::RenderOptions start;
   start.hostfile = job.hostfile;
   start.backend = options::Backend::mpi;
   launch::Surroundings surroundings = launch::look_around(path);
-  start.nodes = nodes =
-      job.nodes == 0 ? launch::default_nodes(start, surroundings) : static_cast<std::uint32_t>(job.nodes);
+  start.nodes = job.nodes == 0 ? launch::default_nodes(start, surroundings) : static_cast<std::uint32_t>(job.nodes);
   surroundings.settings.emplace_back(kHostSetting);
   child::Command command = launch::mpi_start(start, starters, surroundings);
   command.environment.emplace_back(kHostSetting, programs.host.empty() ? "no" : "yes");
-  return command;
-}
-
-int run_mpi(const NxRun& job, const NxPrograms& programs) {
-  check_mpi_can_start(job, programs);
-  std::uint32_t nodes = 0;
-  child::Command command = mpi_start_of(job, programs, nodes);
   const auto add = [&](std::uint32_t count, const fs::path& program) {
-    command.words.insert(command.words.end(), {"-n", std::to_string(count), program.string()});
+    launch::add_program(command, count, program, starters, surroundings);
     command.words.insert(command.words.end(), job.arguments.begin(), job.arguments.end());
   };
   if (!programs.host.empty()) {
     add(1, programs.host);
     command.words.emplace_back(":");
   }
-  add(nodes, programs.node);
+  add(start.nodes, programs.node);
+  return command;
+}
+
+int run_mpi(const NxRun& job, const NxPrograms& programs) {
+  check_mpi_can_start(job, programs);
+  child::Command command = mpi_command(job, programs);
   const launch::SessionFolders folders(command);
   return run_mpirun(command, !programs.host.empty());
 }
@@ -102,7 +100,9 @@ bool over_mpi(const NxRun& job) {
   if (job.over == Over::processes && !job.hostfile.empty())
     throw Failure("processes are all on this machine", "", "leave out --hostfile, or use --over mpi");
   if (job.over != Over::automatic) return job.over == Over::mpi;
-  return !job.hostfile.empty() || child::own_environment().value("SLURM_TASKS_PER_NODE").has_value();
+  const child::Environment environment = child::own_environment();
+  return !job.hostfile.empty() || environment.value("SLURM_TASKS_PER_NODE").has_value() ||
+         !launch::asked_machines("", environment).empty();
 }
 
 // More processes than this would keep the machine busy with changing between them.

@@ -60,9 +60,10 @@ int watch_job(const child::Command& command, const options::RenderOptions& optio
 }  // namespace
 
 HostStart prepare_host(options::RenderOptions options, const std::filesystem::path& self) {
-  const std::string path = child::program_path(child::own_environment());
+  const child::Environment environment = child::own_environment();
+  const std::string path = child::program_path(environment);
   HostStart start{std::move(options), launch::find_programs(self, path), {}};
-  start.options.backend = launch::choose_backend(start.options.backend, start.programs);
+  start.options.backend = launch::choose_backend(start.options, start.programs, environment);
   if (start.options.backend == options::Backend::simulated)
     throw Failure("simulated nodes draw no pictures of a studio", "", "use --backend mpi or threads");
   start.surroundings = launch::look_around(path);

@@ -130,6 +130,14 @@ TEST(Command, AHostfileIsPassedOn) {
   EXPECT_TRUE(document::holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
 }
 
+TEST(Command, FoldersOfLibrariesAreHandedOn) {
+  const std::string passed = "OMPI_MCA_plm_rsh_pass_libpath=/opt/a/lib:/opt/b/lib ";
+  const std::string libraries = "LD_LIBRARY_PATH=/opt/a/lib:/opt/b/lib";
+  EXPECT_TRUE(document::holds(line(3, alone(8, {libraries, "PBS_NODEFILE=/var/nodes"})), passed));
+  EXPECT_FALSE(document::holds(line(3, alone(8, {libraries})), "pass_libpath")) << "on this machine all take them over";
+  EXPECT_FALSE(document::holds(line(3, alone(8, {"LD_LIBRARY_PATH=/a b;c", "PBS_NODEFILE=/var/nodes"})), "libpath"));
+}
+
 TEST(Command, MpichHasWordsOfItsOwn) {
   const test::TemporaryFolder folder;
   Programs programs = all_programs();
@@ -196,7 +204,8 @@ TEST(Command, MindsRootContainersAndSettings) {
   EXPECT_TRUE(document::holds(text, "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1"));
   EXPECT_TRUE(document::holds(text, "OMPI_MCA_btl_vader_single_copy_mechanism=none"));
   EXPECT_TRUE(document::holds(text, "OMPI_MCA_plm=^rsh"));
-  EXPECT_TRUE(document::holds(text, "-x MARS_MEMORY -n 1"));
+  EXPECT_TRUE(document::holds(text, "-x MARS_MEMORY -n 1 /opt/mars-host"));
+  EXPECT_TRUE(document::holds(text, ": -x MARS_MEMORY -n 1 /opt/mars-node")) << "each program has its own";
 }
 
 TEST(Command, ThreadsAreOneProcess) {
@@ -236,22 +245,55 @@ TEST(Command, MpirunIsThatOfOurMpi) {
   EXPECT_EQ(find_mpirun(Mpi::mpich, "/none"), std::nullopt);
 }
 
+options::Backend chosen(options::Backend asked, const Programs& programs, const std::string& hostfile = "",
+                        std::vector<std::string> environment = {}) {
+  options::RenderOptions options;
+  options.backend = asked;
+  options.hostfile = hostfile;
+  return choose_backend(options, programs, child::Environment(std::move(environment)));
+}
+
+std::string refusal(options::Backend asked, const Programs& programs, const std::string& hostfile = "",
+                    const std::vector<std::string>& environment = {}) {
+  return document::failure_of([&] { chosen(asked, programs, hostfile, environment); });
+}
+
 TEST(Command, AutoTakesMpiWhereItIs) {
+  using options::Backend;
   Programs programs = all_programs();
-  EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::mpi);
-  EXPECT_EQ(choose_backend(options::Backend::threads, programs), options::Backend::threads);
+  EXPECT_EQ(chosen(Backend::automatic, programs), Backend::mpi);
+  EXPECT_EQ(chosen(Backend::threads, programs), Backend::threads);
   programs.mpirun.reset();
-  EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::threads);
-  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }),
-                              "mpirun was not found"));
+  EXPECT_EQ(chosen(Backend::automatic, programs), Backend::threads);
+  EXPECT_EQ(refusal(Backend::mpi, programs),
+            "mpirun was not found (load the module of Open MPI, for example module load openmpi, or install it "
+            "(Debian: openmpi-bin), or use --backend threads on this machine alone)");
   programs = all_programs();
   programs.node.reset();
-  EXPECT_EQ(choose_backend(options::Backend::automatic, programs), options::Backend::threads);
-  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::mpi, programs); }),
-                              "mars-host and mars-node"));
+  EXPECT_EQ(chosen(Backend::automatic, programs), Backend::threads);
+  EXPECT_TRUE(document::holds(refusal(Backend::mpi, programs), "mars-host and mars-node"));
   programs.threads.reset();
-  EXPECT_TRUE(document::holds(document::failure_of([&] { choose_backend(options::Backend::automatic, programs); }),
-                              "mars-threads was not"));
+  EXPECT_TRUE(document::holds(refusal(Backend::automatic, programs), "mars-threads was not"));
+}
+
+// Whatever of MPI is missing: threads would use this machine and say nothing of the others.
+TEST(Command, NoThreadsWhereOtherMachinesAreAskedFor) {
+  using options::Backend;
+  const test::TemporaryFolder folder;
+  const std::string others = write_hostfile(folder, "localhost\nn2\n").string();
+  Programs programs = all_programs();
+  programs.mpirun.reset();
+  EXPECT_EQ(refusal(Backend::automatic, programs, others),
+            "mpirun was not found, and " + others +
+                " names other machines (load the module of Open MPI, for example module load openmpi, or install it "
+                "(Debian: openmpi-bin))");
+  const std::vector<std::string> allocation = {"SLURM_JOB_NUM_NODES=4"};
+  EXPECT_TRUE(document::holds(refusal(Backend::automatic, programs, "", allocation),
+                              "and the Slurm job has 4 machines (load the module"));
+  EXPECT_EQ(chosen(Backend::threads, programs, "", allocation), Backend::threads);
+  programs.mpirun = "/usr/bin/mpirun";
+  programs.host.reset();
+  EXPECT_TRUE(document::holds(refusal(Backend::automatic, programs, others), "mars-host and mars-node were not"));
 }
 
 }  // namespace
