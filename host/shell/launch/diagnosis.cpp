@@ -73,6 +73,7 @@ Failure with_advice(const Failure& failure, const Advice& advice) {
 Diagnosis cause(const Remains& remains, const std::string& words, const std::optional<Loss>& loss,
                 const Advice& advice) {
   if (remains.fault) return reported(*remains.fault, remains.booted);
+  if (remains.is_cut_off()) return {Failure(remains.cut_off, "", kOpenPorts), {}};
   const auto advised = [&](const Failure& failure) { return remains.booted ? failure : with_advice(failure, advice); };
   if (!remains.ended_for.empty()) return {advised(Failure(remains.ended_for, "", "")), {}};
   if (const auto own = own_words(remains.last_words)) return {advised(*own), {}};

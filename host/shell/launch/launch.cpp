@@ -28,6 +28,7 @@
 #include "host/shell/launch/film_videos.h"
 #include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
+#include "host/shell/launch/prepared_text.h"
 #include "host/shell/launch/rendering_window.h"
 #include "host/shell/launch/supervisor.h"
 
@@ -103,22 +104,32 @@ void fail_if_preempted(const options::RenderOptions& options, const Starting& st
                   "the same command goes on with the missing frames");
 }
 
-// One job as a person sees it.
+// One job as a person sees it, on this machine alone or with others.
 Remains show_job(const child::Command& command, const options::RenderOptions& options, Display& display,
-                 const Adviser& adviser) {
+                 const Adviser& adviser, bool with_others) {
   display.print(shell_text(command));
   BackgroundText hint;
+  std::optional<PreparedText> machines;
+  if (with_others) machines.emplace([&] { return adviser.about_machines(options); });
+  std::string cut_off;
   Job job(display);
   job.follow(command, {kSlowStart,
                        [&](child::Child&) {
                          display.print("no node has answered for " + std::to_string(kSlowStart.count()) + " seconds");
                          hint.begin([ask = adviser.while_it_starts, options] { return ask(options); });
+                         if (machines) machines->begin();
                        },
                        [&] {
                          if (const std::string text = hint.take(); !text.empty()) display.print(text);
+                         const auto found = machines ? machines->take() : std::nullopt;
+                         if (!found) return;
+                         cut_off = found->substr(0, found->find('\n'));
+                         display.print(found->substr(std::min(cut_off.size() + 1, found->size())));
                        }});
   display.settle();
-  return job.remains();
+  Remains remains = job.remains();
+  remains.cut_off = cut_off;
+  return remains;
 }
 
 std::optional<std::uint32_t> count_there(const std::string& folder, const std::vector<std::uint32_t>& frames) try {
@@ -130,7 +141,9 @@ std::optional<std::uint32_t> count_there(const std::string& folder, const std::v
 Supervisor::World world_of(const options::RenderOptions& options, const Starting& starting, Display& display,
                            const Adviser& adviser) {
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
-            return show_job(command_for(job, starting, machines), job, display, adviser);
+            const std::vector<Slots> all = machines_of(job, starting);
+            const bool with_others = !std::ranges::all_of(all, is_here, &Slots::host);
+            return show_job(command_for(job, starting, machines), job, display, adviser, with_others);
           },
           [&](const std::string& run) {
             if (!options.folder.empty()) clear_ended_runs(options.folder, run);
