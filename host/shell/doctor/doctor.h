@@ -12,11 +12,11 @@ namespace mars::doctor {
 
 struct DoctorOptions {
   std::uint32_t nodes = 0;    // 0: as mars render without --nodes
-  std::string hostfile;       // of the machines; "": those of the Slurm job, or this one
-  std::string folder;         // that they should share; "": the current one
+  std::string hostfile{};     // of the machines; "": those of the Slurm job, or this one
+  std::string folder{};       // that they should share; "": the current one
   bool this_machine = false;  // answers the doctor of another machine
-  std::string own_name;       // by which that doctor knows this machine; "": Slurm's or its own
-  std::string token;          // the file that is there if this machine sees the other's folder
+  std::string own_name{};     // by which that doctor knows this machine; "": Slurm's or its own
+  std::string token{};        // the file that is there if this machine sees the other's folder
   int reserved_cores = 0;     // that nodes leave to the host
   std::string version;        // of MARS
 };
