@@ -36,7 +36,7 @@ struct Silence {
 constexpr std::array kSilences = {
     Silence{"ould not resolve hostname", "the name does not resolve",
             "write it as ssh knows it, or add it to /etc/hosts"},
-    Silence{"Permission denied", "ssh is refused", "ssh NAME true must work without a password: ssh-copy-id NAME"},
+    Silence{"Permission denied (", "ssh is refused", "ssh NAME true must work without a password: ssh-copy-id NAME"},
     Silence{"Host key verification failed", "ssh does not know the machine's key", "ssh NAME once by hand"},
     Silence{"timed out", "ssh gets no answer", "check that the machine runs, and that port 22 is open"},
     Silence{"No route to host", "there is no way to the machine", "check that it runs, and its network"},
@@ -92,6 +92,15 @@ Finding check_builds(std::span<const MachineAnswer> machines) {
   for (const auto& [build, hosts] : builds) texts.push_back(host_list(hosts) + ": " + build);
   return {State::trouble, "versions", document::joined(texts, "; "),
           "install the same MARS on every machine: different versions do not understand each other"};
+}
+
+// Which machine has which, the machines' own findings say.
+bool have_one_mpi(std::span<const MachineFindings> machines) {
+  std::set<std::string> all;
+  for (const MachineFindings& machine : machines)
+    for (const Finding& each : machine.findings)
+      if (each.about == "MPI") all.insert(each.found);
+  return all.size() <= 1;
 }
 
 Finding check_doors(std::span<const MachineAnswer> machines) {
@@ -204,6 +213,9 @@ std::vector<Finding> check_together(const Answers& answers, const std::string& f
   if (machines.empty()) return {};
   std::vector<Finding> findings{check_presence(machines), check_builds(machines), check_doors(machines),
                                 check_clocks(machines)};
+  if (!have_one_mpi(answers.findings()))
+    findings.push_back({State::note, "versions", "the machines have different MPIs: see MPI below",
+                        "install the same MPI under the same path on every machine"});
   if (!folder.empty()) findings.push_back(check_folder(machines, folder));
   return findings;
 }

@@ -25,7 +25,8 @@ class Token {
  public:
   explicit Token(const std::optional<std::string>& folder) {
     if (!folder) return;
-    folder_ = std::filesystem::absolute(folder->empty() ? "." : *folder);
+    folder_ = std::filesystem::current_path();
+    if (!folder->empty()) folder_ = (folder_ / *folder).lexically_normal();
     std::string name = folder_ / ".mars-doctor-XXXXXX";
     const int file = mkstemp(name.data());
     if (file < 0) return;
@@ -38,8 +39,8 @@ class Token {
   Token(const Token&) = delete;
   Token& operator=(const Token&) = delete;
 
-  const std::string& file() const { return file_; }  // "": none can be written
-  std::string folder() const { return file_.empty() ? "" : folder_.lexically_normal().string(); }
+  const std::string& file() const { return file_; }                // "": none can be written
+  const std::filesystem::path& folder() const { return folder_; }  // "": it is not asked for
 
  private:
   std::filesystem::path folder_;
@@ -154,7 +155,13 @@ std::optional<Cluster> look_at_machines(const std::string& hostfile, const std::
   };
   std::ranges::copy_if(round.answers.findings(), std::back_inserter(cluster.machines), is_asked);
   for (const Finding& each : round.silences) cluster.findings.push_back(each);
-  for (const Finding& each : check_together(round.answers, token.folder())) cluster.findings.push_back(each);
+  for (const Finding& each : check_together(round.answers, token.file().empty() ? "" : token.folder().string()))
+    cluster.findings.push_back(each);
+  if (!token.folder().empty() && token.file().empty())
+    cluster.findings.push_back(
+        {Finding::State::note, "folder",
+         token.folder().string() + " cannot be written by this machine: whether others see it is not known",
+         "make it, or name another one: mars doctor -o DIR"});
   cluster.cut_off = document::joined(who_cannot_reach(round.answers.machines()), "; ");
   return cluster;
 }

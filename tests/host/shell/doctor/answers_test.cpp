@@ -100,6 +100,14 @@ TEST(Together, OtherVersions) {
   EXPECT_EQ(found.found, "n1,n3: MARS 1.2.3, mars-node 12345678; n2: MARS 1.2.4, mars-node 87654321");
 }
 
+TEST(Together, OtherMpis) {
+  Answers answers = answers_of({presence("n1"), presence("n2")});
+  for (const auto& [host, mpi] : {std::pair{"n1", "Open MPI 4.1.4"}, std::pair{"n2", "Open MPI 5.0.3"}})
+    EXPECT_TRUE(answers.take(lines_of({host, {{State::good, "MPI", mpi, ""}}}), kNow));
+  const auto findings = check_together(answers, "");
+  EXPECT_EQ(findings.back().found, "the machines have different MPIs: see MPI below");
+}
+
 TEST(Together, AFolderThatOneDoesNotSee) {
   Presence blind = presence("n2");
   blind.sees_folder = false;
