@@ -60,9 +60,9 @@ echo "Welcome to $2"; exec sh -c "$3"
         printed = plain(self.doctor("--hostfile", "hosts", "-o", self.folder, code=1,
                                     PATH=f"{ssh.parent}:{os.environ['PATH']}"))
         for says in ["on alpha,beta ", "gone: the name does not resolve", "bare: lacks the library libpng16.so.16",
-                     "3 machines answered: ", "ok versions the same MARS on all machines: MARS ",
+                     "3 machines answered: ", "ok MARS 0.2.0, mars-node ",
                      "ok ports all machines reach each other by TCP", "ok clocks differ by less than 2 seconds",
-                     f"ok folder all machines see {self.folder}", "2 troubles"]:
+                     f"ok folder {self.folder} is the same on all machines", "2 troubles"]:
             self.assertIn(says, printed)
         self.assertNotIn("a start", printed)
         self.assertEqual(list(self.folder.glob(".mars-doctor*")), [])

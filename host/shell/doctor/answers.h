@@ -1,16 +1,14 @@
-// What the machines of a rendering answer to the doctor that asks them, each a line of JSON, and what it comes to:
-// findings about all machines together, which name machines.
+// What machines answer to the doctor that asks them, and what it comes to: findings that name machines.
 //
-// A machine first answers what it is, with its findings. Then it is given everybody's door, answers at once with its
-// clock, and later which doors it did not reach.
+// A machine answers with its findings and its door. Then it is given all doors, and answers at once with its clock,
+// then with the doors that it missed, and that it has met all others. An answer is a line.
 #pragma once
 
 #include <chrono>
-#include <cstdint>
-#include <optional>
+#include <map>
+#include <set>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "host/shell/doctor/meeting.h"
@@ -20,54 +18,32 @@ namespace mars::doctor {
 
 using SystemTime = std::chrono::system_clock::time_point;
 
-struct Presence {
-  Peer peer;
-  std::string build;         // of MARS: its version, and a checksum of mars-node
-  std::uint64_t memory = 0;  // bytes; 0: unknown
-  bool sees_folder = false;  // the file is there that the asking doctor wrote into the folder
-};
-
-// What one machine has answered so far.
-struct MachineAnswer {
-  Presence presence;
-  std::optional<double> ahead;  // seconds that its clock is ahead of ours at least; negative: behind
-  std::optional<std::vector<Missed>> missed;
-};
-
-std::string line_of(const Presence& presence);
+std::string door_line(const Peer& peer);
 std::string clock_line(const std::string& host, SystemTime now);
-std::string line_of(const std::string& host, std::span<const Missed> missed);
-std::string line_of(std::span<const Peer> peers);
-// None where the line is no list of doors.
-std::optional<std::vector<Peer>> read_peers(const std::string& line);
+std::string missed_line(const Missed& missed);
+std::string met_line(const std::string& host);
 
-class Answers {
- public:
-  // False: the line is none of a machine's.
+// All doors, as machines are given them.
+std::string doors_line(std::span<const Peer> peers);
+std::vector<Peer> read_doors(const std::string& line);
+
+struct Answers {
+  std::vector<MachineFindings> findings;
+  std::vector<Peer> doors;              // of machines that have answered
+  SystemTime given;                     // when all doors were given to all
+  std::map<std::string, double> ahead;  // seconds that a machine's clock is ahead of ours at least; negative: behind
+  std::vector<Missed> missed;
+  std::set<std::string> met;  // machines that have met all others
+
+  // False: the line is no answer.
   bool take(const std::string& line, SystemTime now);
-  // All machines are given everybody's door from now on.
-  void doors_are_sent(SystemTime now) { sent_ = now; }
-
-  bool is_present(const std::string& host) const { return find(host) != nullptr; }
-  bool has_met(const std::string& host) const { return find(host) != nullptr && find(host)->missed; }
-  std::vector<Peer> peers() const;
-  std::span<const MachineAnswer> machines() const { return machines_; }
-  std::span<const MachineFindings> findings() const { return findings_; }
-
- private:
-  const MachineAnswer* find(const std::string& host) const;
-
-  std::vector<MachineAnswer> machines_;
-  std::vector<MachineFindings> findings_;
-  SystemTime sent_;
+  bool has_door(const std::string& host) const;
 };
 
-// Those that do not reach each other: "n1,n2,n4 cannot reach n3 by TCP: packets are dropped, by a firewall?"; none: all
-// do.
-std::vector<std::string> who_cannot_reach(std::span<const MachineAnswer> machines);
+// "n1,n2,n4 cannot reach n3 by TCP: packets are dropped, by a firewall?"; none: all reach each other.
+std::vector<std::string> who_cannot_reach(std::span<const Missed> missed);
 
-// `folder`: which all should see; "": nothing could be written there.
-std::vector<Finding> check_together(const Answers& answers, const std::string& folder);
+std::vector<Finding> check_together(const Answers& answers);
 
 // About machines that did not answer, by the last words of the command that asked them. `self`: MARS's program there.
 Finding check_silence(const std::vector<std::string>& hosts, const std::string& words, const std::string& self);

@@ -242,34 +242,7 @@ Finding check_window(const Facts& facts) {
   return {State::good, "window", "mars-window is there, and the display " + facts.display, ""};
 }
 
-}  // namespace
-
-std::string bytes_text(std::uint64_t bytes) {
-  const double mebibytes = static_cast<double>(bytes) / kMiB;
-  if (bytes >= 10 * 1024 * kMiB) return document::formatted("%.0f GiB", mebibytes / 1024);
-  if (bytes >= 1024 * kMiB) return document::formatted("%.1f GiB", mebibytes / 1024);
-  return document::formatted("%.0f MiB", mebibytes);
-}
-
-std::vector<Finding> check_machine(const Facts& facts) {
-  std::vector<Finding> findings{check_mpi(facts)};
-  for (const auto check : {check_programs, check_processors, check_nodes, check_memory, check_open_files, check_shared,
-                           check_copies, check_user, check_temporary}) {
-    findings.push_back(check(facts));
-  }
-  if (facts.programs.mpirun && !facts.slurm && facts.surroundings.no_remote_shell) {
-    findings.push_back({State::note, "ssh", "was not found: MPI can start on this machine only",
-                        "for other machines install ssh (Debian: openssh-client)"});
-  }
-  findings.push_back(check_video(facts));
-  findings.push_back(check_views(facts));
-  findings.push_back(check_window(facts));
-  return findings;
-}
-
-std::vector<Finding> check_job(const Facts& facts) {
-  if (!facts.slurm) return {};
-  std::vector<Finding> findings;
+void check_slurm(const Facts& facts, std::vector<Finding>& findings) {
   const SlurmJob& job = *facts.slurm;
   const std::string found = "job " + job.id + ", " + document::counted(job.machines, "machine") +
                             (job.tasks != 0 ? ", " + document::counted(job.tasks, "task") : "");
@@ -286,6 +259,31 @@ std::vector<Finding> check_job(const Facts& facts) {
     findings.push_back({State::note, "srun", "does not take over --cpus-per-task of the job",
                         "in a job script: export SRUN_CPUS_PER_TASK=$SLURM_CPUS_PER_TASK"});
   }
+}
+
+}  // namespace
+
+std::string bytes_text(std::uint64_t bytes) {
+  const double mebibytes = static_cast<double>(bytes) / kMiB;
+  if (bytes >= 10 * 1024 * kMiB) return document::formatted("%.0f GiB", mebibytes / 1024);
+  if (bytes >= 1024 * kMiB) return document::formatted("%.1f GiB", mebibytes / 1024);
+  return document::formatted("%.0f MiB", mebibytes);
+}
+
+std::vector<Finding> check_machine(const Facts& facts) {
+  std::vector<Finding> findings{check_mpi(facts)};
+  for (const auto check : {check_programs, check_processors, check_nodes, check_memory, check_open_files, check_shared,
+                           check_copies, check_user, check_temporary}) {
+    findings.push_back(check(facts));
+  }
+  if (facts.slurm) check_slurm(facts, findings);
+  if (facts.programs.mpirun && !facts.slurm && facts.surroundings.no_remote_shell) {
+    findings.push_back({State::note, "ssh", "was not found: MPI can start on this machine only",
+                        "for other machines install ssh (Debian: openssh-client)"});
+  }
+  findings.push_back(check_video(facts));
+  findings.push_back(check_views(facts));
+  findings.push_back(check_window(facts));
   return findings;
 }
 

@@ -23,9 +23,6 @@ struct Finding {
 // Everything about one machine, always in the same order.
 std::vector<Finding> check_machine(const Facts& facts);
 
-// About the Slurm job; nothing outside of one.
-std::vector<Finding> check_job(const Facts& facts);
-
 // How a start went.
 Finding check_start(const launch::Trial& trial);
 

@@ -23,12 +23,9 @@ using Words = std::vector<std::string>;
 // A file in the folder that the machines should share, while they are asked.
 class Token {
  public:
-  explicit Token(const std::optional<std::string>& folder) {
-    if (!folder) return;
-    folder_ = std::filesystem::current_path();
-    if (!folder->empty()) folder_ = (folder_ / *folder).lexically_normal();
-    std::string name = folder_ / ".mars-doctor-XXXXXX";
-    const int file = mkstemp(name.data());
+  explicit Token(const std::string& folder) {
+    std::string name = folder + "/.mars-doctor-XXXXXX";
+    const int file = folder.empty() ? -1 : mkstemp(name.data());
     if (file < 0) return;
     close(file);
     file_ = name;
@@ -39,11 +36,9 @@ class Token {
   Token(const Token&) = delete;
   Token& operator=(const Token&) = delete;
 
-  const std::string& file() const { return file_; }                // "": none can be written
-  const std::filesystem::path& folder() const { return folder_; }  // "": it is not asked for
+  const std::string& file() const { return file_; }  // "": none can be written
 
  private:
-  std::filesystem::path folder_;
   std::string file_;
 };
 
@@ -122,7 +117,7 @@ std::vector<Call> calls_for(const Way& way, const std::vector<launch::Slots>& ma
     if (way.srun) continue;
     if (here)
       calls.push_back({{each.host}, {{}, named(doctor_words(way, each.count), each.host)}});
-    else if (way.ssh)
+    else
       calls.push_back(call_by_ssh(way, each));
   }
   if (!is_asked) calls.push_back({{host_name()}, {{}, named(doctor_words(way, 1), host_name())}});
@@ -137,7 +132,7 @@ std::vector<launch::Slots> machines_of(const std::string& hostfile) {
 
 }  // namespace
 
-std::optional<Cluster> look_at_machines(const std::string& hostfile, const std::optional<std::string>& folder,
+std::optional<Cluster> look_at_machines(const std::string& hostfile, const std::string& folder,
                                         const std::filesystem::path& self) {
   const std::vector<launch::Slots> machines = machines_of(hostfile);
   if (std::ranges::all_of(machines, launch::is_here, &launch::Slots::host)) return std::nullopt;
@@ -145,24 +140,20 @@ std::optional<Cluster> look_at_machines(const std::string& hostfile, const std::
   const Token token(folder);
   Way way{{}, child::find_program("ssh", path), self.string(), token.file()};
   if (child::own_environment().value("SLURM_JOB_ID")) way.srun = child::find_program("srun", path);
-  Cluster cluster;
   if (!way.ssh && !way.srun)
-    cluster.findings.push_back({Finding::State::trouble, "machines", "others cannot be asked: ssh was not found",
-                                "install it (Debian: openssh-client)"});
-  Round round = go_round(calls_for(way, machines), way.self);
-  const auto is_asked = [&](const MachineFindings& each) {
-    return std::ranges::find(machines, each.host, &launch::Slots::host) != machines.end();
-  };
-  std::ranges::copy_if(round.answers.findings(), std::back_inserter(cluster.machines), is_asked);
-  for (const Finding& each : round.silences) cluster.findings.push_back(each);
-  for (const Finding& each : check_together(round.answers, token.file().empty() ? "" : token.folder().string()))
-    cluster.findings.push_back(each);
-  if (!token.folder().empty() && token.file().empty())
-    cluster.findings.push_back(
-        {Finding::State::note, "folder",
-         token.folder().string() + " cannot be written by this machine: whether others see it is not known",
-         "make it, or name another one: mars doctor -o DIR"});
-  cluster.cut_off = document::joined(who_cannot_reach(round.answers.machines()), "; ");
+    return Cluster{{},
+                   {{Finding::State::trouble, "machines", "others cannot be asked: ssh was not found",
+                     "install it (Debian: openssh-client)"}},
+                   ""};
+  const Round round = go_round(calls_for(way, machines), way.self);
+  Cluster cluster{{}, round.silences, document::joined(who_cannot_reach(round.answers.missed), "; ")};
+  for (const Finding& each : check_together(round.answers)) cluster.findings.push_back(each);
+  std::ranges::copy_if(round.answers.findings, std::back_inserter(cluster.machines), [&](const MachineFindings& each) {
+    return std::ranges::count(machines, each.host, &launch::Slots::host) > 0;
+  });
+  if (!folder.empty() && token.file().empty())
+    cluster.findings.push_back({Finding::State::note, "folder", folder + " cannot be written by this machine",
+                                "name another folder: mars doctor -o DIR"});
   return cluster;
 }
 

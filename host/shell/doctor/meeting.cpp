@@ -14,8 +14,6 @@
 #include <utility>
 
 #include "hal/failure/failure.h"
-#include "host/child/environment.h"
-#include "host/shell/launch/text_reader.h"
 
 namespace mars::doctor {
 namespace {
@@ -23,7 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostAddresses = 8;  // of a machine
-constexpr std::size_t kAtOnce = 400;       // sockets: fewer than a process may usually open
+constexpr std::size_t kAtOnce = 50;        // machines: for fewer sockets than a process may usually open
 
 sockaddr_in address_of(const std::string& text, std::uint16_t port) {
   sockaddr_in address{};
@@ -39,42 +37,34 @@ child::Descriptor tcp_socket() {
   return made;
 }
 
-// One of a machine's addresses.
+// At one address of a machine.
 struct Knock {
-  std::size_t peer;
-  child::Descriptor socket;
+  const Peer* peer;
+  child::Descriptor socket = tcp_socket();
   int error = ETIMEDOUT;  // 0: the door was reached
 };
 
-Knock begin_knock(const Peer& peer, std::size_t number, const std::string& at) {
-  Knock knock{number, tcp_socket()};
-  const sockaddr_in address = address_of(at, peer.port);
-  if (connect(knock.socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
-    knock.error = 0;
-  else if (errno != EINPROGRESS)
-    knock.error = errno;
-  if (knock.error != ETIMEDOUT) knock.socket.close();
-  return knock;
-}
-
-void end_knock(Knock& knock) {
-  socklen_t size = sizeof knock.error;
-  getsockopt(knock.socket.number(), SOL_SOCKET, SO_ERROR, &knock.error, &size);
+void begin(Knock& knock, const std::string& at) {
+  const sockaddr_in address = address_of(at, knock.peer->port);
+  const int failed = connect(knock.socket.number(), reinterpret_cast<const sockaddr*>(&address), sizeof address);
+  if (failed != 0 && errno == EINPROGRESS) return;
+  knock.error = failed != 0 ? errno : 0;
   knock.socket.close();
 }
 
 // poll() passes over the sockets that are closed.
 void wait_for(std::span<Knock> knocks, std::chrono::milliseconds patience) {
   const auto deadline = Clock::now() + patience;
-  std::vector<pollfd> ready;
-  for (const Knock& each : knocks) ready.push_back({each.socket.number(), POLLOUT, 0});
   while (std::ranges::any_of(knocks, [](const Knock& each) { return each.socket.open(); })) {
+    std::vector<pollfd> ready;
+    for (const Knock& each : knocks) ready.push_back({each.socket.number(), POLLOUT, 0});
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now()).count();
     if (left <= 0 || poll(ready.data(), ready.size(), static_cast<int>(left)) <= 0) return;
     for (std::size_t i = 0; i < knocks.size(); ++i) {
-      if (std::exchange(ready[i].revents, 0) == 0) continue;
-      end_knock(knocks[i]);
-      ready[i].fd = -1;
+      if (ready[i].revents == 0) continue;
+      socklen_t size = sizeof knocks[i].error;
+      getsockopt(ready[i].fd, SOL_SOCKET, SO_ERROR, &knocks[i].error, &size);
+      knocks[i].socket.close();
     }
   }
 }
@@ -85,13 +75,19 @@ std::string meaning_of_error(int error) {
   return std::strerror(error);
 }
 
-// "10.0.0.5 41290 10.0.0.7 22": ssh names the address at which this machine was reached.
-std::string reached_at() {
-  const std::string connection = child::own_environment().value("SSH_CONNECTION").value_or("");
-  launch::TextReader words(connection);
-  std::string third;
-  for (int i = 0; i < 3; ++i, words.skip_space()) third = words.word().value_or("");
-  return third;
+void knock_at_some(const std::string& from, std::span<const Peer> peers, std::chrono::milliseconds patience,
+                   std::vector<Missed>& missed) {
+  std::vector<Knock> knocks;
+  for (const Peer& peer : peers)
+    for (const std::string& at : peer.addresses | std::views::take(kMostAddresses))
+      begin(knocks.emplace_back(Knock{&peer}), at);
+  wait_for(knocks, patience);
+  for (const Peer& peer : peers) {
+    const auto of_peer = [&](const Knock& each) { return each.peer == &peer; };
+    const auto first = std::ranges::find_if(knocks, of_peer);
+    if (std::ranges::none_of(knocks, [&](const Knock& each) { return of_peer(each) && each.error == 0; }))
+      missed.push_back({from, peer.host, meaning_of_error(first == knocks.end() ? EADDRNOTAVAIL : first->error)});
+  }
 }
 
 }  // namespace
@@ -99,9 +95,9 @@ std::string reached_at() {
 Door::Door(const std::string& address) : socket_(tcp_socket()) {
   sockaddr_in own = address_of(address, 0);
   socklen_t size = sizeof own;
-  if (bind(socket_.number(), reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0 ||
-      listen(socket_.number(), SOMAXCONN) != 0 ||
-      getsockname(socket_.number(), reinterpret_cast<sockaddr*>(&own), &size) != 0)
+  const auto pointer = reinterpret_cast<sockaddr*>(&own);
+  if (bind(socket_.number(), pointer, size) != 0 || listen(socket_.number(), SOMAXCONN) != 0 ||
+      getsockname(socket_.number(), pointer, &size) != 0)
     throw Failure(std::strerror(errno), "listening at " + address, "");
   port_ = ntohs(own.sin_port);
 }
@@ -118,28 +114,13 @@ std::vector<std::string> own_addresses() {
     addresses.emplace_back(text);
   }
   freeifaddrs(all);
-  std::ranges::stable_partition(addresses, [at = reached_at()](const std::string& each) { return each == at; });
-  if (addresses.size() > kMostAddresses) addresses.resize(kMostAddresses);
   return addresses.empty() ? std::vector<std::string>{"127.0.0.1"} : addresses;
 }
 
-std::vector<Missed> knock(std::span<const Peer> peers, std::chrono::milliseconds patience) {
+std::vector<Missed> knock(const std::string& from, std::span<const Peer> peers, std::chrono::milliseconds patience) {
   std::vector<Missed> missed;
-  for (std::size_t next = 0; next < peers.size();) {
-    const std::size_t begin = next;
-    std::vector<Knock> knocks;
-    for (; next < peers.size() && knocks.size() + kMostAddresses <= kAtOnce; ++next)
-      for (const std::string& at : peers[next].addresses | std::views::take(kMostAddresses))
-        knocks.push_back(begin_knock(peers[next], next, at));
-    wait_for(knocks, patience);
-    for (std::size_t peer = begin; peer < next; ++peer) {
-      const auto of_peer = [&](const Knock& each) { return each.peer == peer; };
-      if (std::ranges::any_of(knocks, [&](const Knock& each) { return of_peer(each) && each.error == 0; })) continue;
-      const auto first_try = std::ranges::find_if(knocks, of_peer);
-      missed.push_back(
-          {peers[peer].host, meaning_of_error(first_try == knocks.end() ? EADDRNOTAVAIL : first_try->error)});
-    }
-  }
+  for (std::size_t first = 0; first < peers.size(); first += kAtOnce)
+    knock_at_some(from, peers.subspan(first, std::min(kAtOnce, peers.size() - first)), patience, missed);
   return missed;
 }
 

@@ -1,5 +1,5 @@
-// Whether machines reach each other by TCP: each opens a door, a socket that listens, and all knock at the doors of all
-// others at the same time. Open MPI's daemons and ranks need the same.
+// Whether machines reach each other by TCP: each opens a door, a socket that listens, and all knock at all doors at the
+// same time. Open MPI's daemons and ranks need the same.
 #pragma once
 
 #include <chrono>
@@ -15,8 +15,8 @@ namespace mars::doctor {
 // A machine and its door.
 struct Peer {
   std::string host;
-  std::vector<std::string> addresses;  // IPv4, the one first by which others know the machine best
   std::uint16_t port = 0;
+  std::vector<std::string> addresses;  // IPv4
 
   bool operator==(const Peer&) const = default;
 };
@@ -38,13 +38,13 @@ std::vector<std::string> own_addresses();
 
 // A machine that was reached at none of its addresses.
 struct Missed {
-  std::string to;
+  std::string from, to;
   std::string how;  // what became of the packets to its first address
 
   bool operator==(const Missed&) const = default;
 };
 
-// Knocks at all doors. `patience`: until packets that have no answer count as dropped.
-std::vector<Missed> knock(std::span<const Peer> peers, std::chrono::milliseconds patience);
+// `from` knocks at all doors. `patience`: until packets that have no answer count as dropped.
+std::vector<Missed> knock(const std::string& from, std::span<const Peer> peers, std::chrono::milliseconds patience);
 
 }  // namespace mars::doctor

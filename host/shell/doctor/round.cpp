@@ -100,20 +100,19 @@ Round go_round(const std::vector<Call>& calls, const std::string& self, const Ro
   Answers& answers = round.answers;
   std::list<Session> sessions(calls.begin(), calls.end());
   hear(sessions, answers, limits.answer, [&](const Session& each) {
-    return std::ranges::all_of(each.hosts(), [&](const std::string& host) { return answers.is_present(host); });
+    return std::ranges::all_of(each.hosts(), [&](const std::string& host) { return answers.has_door(host); });
   });
-  answers.doors_are_sent(std::chrono::system_clock::now());
-  const std::string doors = line_of(answers.peers());
-  for (Session& each : sessions) each.send(doors);
+  answers.given = std::chrono::system_clock::now();
+  for (Session& each : sessions) each.send(doors_line(answers.doors));
   hear(sessions, answers, limits.meeting, [&](const Session& each) {
     return std::ranges::all_of(
-        each.hosts(), [&](const std::string& host) { return !answers.is_present(host) || answers.has_met(host); });
+        each.hosts(), [&](const std::string& host) { return !answers.has_door(host) || answers.met.contains(host); });
   });
   for (const Session& each : sessions) each.say_nothing_more();
   for (const Session& each : sessions) {
     std::vector<std::string> silent;
     for (const std::string& host : each.hosts())
-      if (!answers.has_met(host)) silent.push_back(host);
+      if (!answers.met.contains(host)) silent.push_back(host);
     if (!silent.empty()) round.silences.push_back(check_silence(silent, each.words(), self));
   }
   hear(sessions, answers, kEnding, [](const Session&) { return false; });

@@ -47,31 +47,31 @@ std::uint16_t closed_port() { return Door("127.0.0.2").port(); }
 
 TEST(Knock, ReachesOpenDoorsAndSaysWhatHappenedAtOthers) {
   const Door second("127.0.0.2"), third("127.0.0.3"), anywhere;
-  const std::vector<Peer> peers{{"n2", {"127.0.0.2"}, second.port()},
-                                {"n3", {"127.0.0.3"}, third.port()},
-                                {"n4", {"127.0.0.2"}, closed_port()},
-                                {"n5", own_addresses(), anywhere.port()},
-                                {"n6", {}, 1}};
-  EXPECT_EQ(knock(peers, kLong), (std::vector<Missed>{{"n4", "connections are refused, by a firewall?"},
-                                                      {"n6", "Cannot assign requested address"}}));
+  const std::vector<Peer> peers{{"n2", second.port(), {"127.0.0.2"}},
+                                {"n3", third.port(), {"127.0.0.3"}},
+                                {"n4", closed_port(), {"127.0.0.2"}},
+                                {"n5", anywhere.port(), own_addresses()},
+                                {"n6", 1, {}}};
+  EXPECT_EQ(knock("n1", peers, kLong), (std::vector<Missed>{{"n1", "n4", "connections are refused, by a firewall?"},
+                                                            {"n1", "n6", "Cannot assign requested address"}}));
 }
 
 TEST(Knock, PacketsWithoutAnAnswerAreDropped) {
   const FullDoor full;
   const Door open("127.0.0.2");
-  const std::vector<Peer> peers{{"n2", {"127.0.0.2"}, open.port()}, {"n4", {"127.0.0.4"}, full.port()}};
-  EXPECT_EQ(knock(peers, kShort), (std::vector<Missed>{{"n4", "packets are dropped, by a firewall?"}}));
+  const std::vector<Peer> peers{{"n2", open.port(), {"127.0.0.2"}}, {"n4", full.port(), {"127.0.0.4"}}};
+  EXPECT_EQ(knock("n1", peers, kShort), (std::vector<Missed>{{"n1", "n4", "packets are dropped, by a firewall?"}}));
 }
 
 TEST(Knock, AnyAddressOfAMachineWillDo) {
   const Door open("127.0.0.3");
-  EXPECT_TRUE(knock(std::vector<Peer>{{"n3", {"127.0.0.2", "127.0.0.3"}, open.port()}}, kLong).empty());
+  EXPECT_TRUE(knock("n1", std::vector<Peer>{{"n3", open.port(), {"127.0.0.2", "127.0.0.3"}}}, kLong).empty());
 }
 
 TEST(Knock, ManyMachinesAreTriedInTurn) {
   const Door open("127.0.0.2");
-  const std::vector<Peer> peers(1000, {"n2", {"127.0.0.2"}, open.port()});
-  EXPECT_TRUE(knock(peers, kLong).empty());
+  const std::vector<Peer> peers(1000, {"n2", open.port(), {"127.0.0.2"}});
+  EXPECT_TRUE(knock("n1", peers, kLong).empty());
 }
 
 }  // namespace
