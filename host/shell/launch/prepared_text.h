@@ -17,16 +17,15 @@ class PreparedText {
   // ends with this object or with the thread that made it.
   explicit PreparedText(const std::function<std::string()>& find);
 
-  void begin();
+  void begin() { asked_.writing.close(); }
   // Once it is whole; none before and after.
   std::optional<std::string> take();
 
  private:
-  PreparedText(const std::function<std::string()>& find, child::SocketPair ends);
-
-  child::Descriptor stream_;
+  child::Pipe asked_;
+  child::Descriptor text_;
   child::Process process_;
-  std::string text_;
+  bool taken_ = false;
 };
 
 }  // namespace mars::launch
