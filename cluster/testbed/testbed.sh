@@ -8,6 +8,8 @@
 #   testbed.sh exec HOST COMMAND    run a command on a host, in this folder
 #   testbed.sh cut HOST             pull a host's network cable
 #   testbed.sh join HOST            plug it in again
+#   testbed.sh firewall HOST        drop all that a host sends by TCP, but ssh
+#   testbed.sh lift HOST            lift its firewall
 #   testbed.sh slow HOST RATE       limit the rate at which a host receives, e.g. to 10mbit; full: no limit
 #   testbed.sh kill HOST            cut a host's power: everything on it is gone until the next up
 #   testbed.sh down                 end it and remove everything
@@ -95,6 +97,17 @@ start_host() {
     mount --bind $dir/hosts /etc/hosts; mount --bind $dir/ssh /root/.ssh
     mkdir -p /run/sshd /run/munge"
 }
+
+# What a host sends by TCP goes where nobody listens. By rules of routing, for which no other package is needed.
+firewall() {
+  on "$1" sh -euc "
+    ip link add nowhere type veth peer name nobody
+    ip link set nobody up; ip link set nowhere arp off up
+    ip route add default dev nowhere table 22
+    ip rule add pref 1 ipproto tcp sport 22 lookup main; ip rule add pref 2 ipproto tcp dport 22 lookup main
+    ip rule add pref 3 ipproto tcp lookup 22"
+}
+lift_firewall() { on "$1" sh -euc "for each in 1 2 3; do ip rule delete pref \$each; done; ip link delete nowhere"; }
 
 write_settings() {
   { echo "127.0.0.1 localhost"; for host in $hosts; do echo "10.77.0.1${host#n} $host"; done; } >"$dir/hosts"
@@ -206,6 +219,8 @@ case "$command:$#" in
   exec:*) on "$@" ;;
   cut:1) at_switch ip link set "$1" down ;;
   join:1) at_switch ip link set "$1" up ;;
+  firewall:1) firewall "$1" ;;
+  lift:1) lift_firewall "$1" ;;
   slow:2)
     at_switch tc qdisc del dev "$1" root 2>/dev/null || true
     [ "$2" = full ] || at_switch tc qdisc add dev "$1" root tbf rate "$2" burst 64kb latency 400ms ;;

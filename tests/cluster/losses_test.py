@@ -109,6 +109,25 @@ class Losses(ClusterTest):
         testbed("kill", "n4")
         self.assertGoesOn(r"starting again \(1 of 5\) with 5 nodes on 3 machines, without n4; ", HOSTS[:3])
 
+    def test_a_firewall_is_found_and_named(self):
+        """By mars doctor, and by a run that waits for its nodes, which would wait for two minutes."""
+        says = "n1,n2,n4 cannot reach n3 by TCP: packets are dropped"
+        testbed("firewall", "n3")
+        self.addCleanup(testbed, "lift", "n3")
+        printed = self.on("n1", "mars", "doctor", "--hostfile", self.hostfile, code=1).stdout
+        self.assertIn(says, " ".join(printed.split()))
+        output = self.folder / "printed.txt"
+        film = self.write("film.json", spinning_teapot(8, [160, 90]))
+        with output.open("w") as file:
+            process = subprocess.Popen(
+                [TESTBED, "exec", "n1", "mars", "render", film, "-o", "out", "--hostfile", self.hostfile],
+                cwd=self.folder, env=CLUSTER, stdout=file, stderr=subprocess.STDOUT)
+        self.addCleanup(process.kill)
+        wait_until(lambda: says in output.read_text() or process.poll() is not None, SECONDS, output.read_text)
+        self.assertIn(says, output.read_text())
+        testbed("exec", "n1", "pkill", "-TERM", "-x", "mars")
+        self.assertEqual(process.wait(timeout=SOON), 1, output.read_text())
+
     def test_a_film_on_a_slow_cable(self):
         film = self.write("film.json", spinning_teapot(8, [320, 180]))
         testbed("slow", "n3", "5mbit")

@@ -134,6 +134,8 @@ class Rendering(ClusterTest):
                                     code=code).stdout
         output = look(0)
         self.assertIn("on n1-n4", output)
+        self.assertIn("4 machines, 8 tasks", output)
+        self.assertIn("ok ports all machines reach each other by TCP", " ".join(output.split()))
         self.assertIn("7 nodes on 4 machines (mpi)", " ".join(output.split()))
         testbed("exec", "n3", "mount", "-o", "remount,size=8m", "/dev/shm")
         self.addCleanup(testbed, "exec", "n3", "mount", "-o", "remount,size=1g", "/dev/shm")

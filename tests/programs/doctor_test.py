@@ -45,6 +45,32 @@ class Doctor(ProgramTest):
         self.assertRegex(printed, r"TROUBLE +a start +Open MPI cannot write its temporary files")
         self.assertIn("set TMPDIR", printed)
 
+    def test_other_machines(self):
+        """An ssh stands for machines: two are this one, the others are not ready."""
+        ssh = self.write("bin/ssh", """#!/bin/sh
+until [ "$1" = -- ]; do shift; done
+case $2 in
+  gone) echo "ssh: Could not resolve hostname gone: Name or service not known" >&2; exit 255;;
+  bare) echo "mars: error while loading shared libraries: libpng16.so.16: cannot open shared object file" >&2; exit 127;;
+esac
+echo "Welcome to $2"; exec sh -c "$3"
+""")
+        ssh.chmod(0o755)
+        self.write("hosts", "alpha slots=2\nbeta slots=2\ngone slots=2\nbare slots=2\n")
+        printed = plain(self.doctor("--hostfile", "hosts", "-o", self.folder, code=1,
+                                    PATH=f"{ssh.parent}:{os.environ['PATH']}"))
+        for says in ["on alpha,beta ", "gone: the name does not resolve", "bare: lacks the library libpng16.so.16",
+                     "3 machines answered: ",
+                     "ok ports all machines reach each other by TCP", "ok clocks differ by less than 2 seconds",
+                     f"ok folder {self.folder} is the same on all machines", "2 troubles"]:
+            self.assertIn(says, printed)
+        self.assertRegex(printed, r"ok MARS \S+, mars-node [0-9a-f]{8} ")
+        self.assertNotIn("a start", printed)
+        self.assertEqual(list(self.folder.glob(".mars-doctor*")), [])
+
+    def test_a_hostfile_that_names_no_host(self):
+        self.fail_clearly(1, "doctor", "--hostfile", self.write("hosts", ""), says="names no host")
+
     def test_temporary_files_have_no_place(self):
         self.assertRegex(self.doctor(code=1, TMPDIR="/proc/nowhere"), r"TROUBLE +TMPDIR +/proc/nowhere cannot be written")
 

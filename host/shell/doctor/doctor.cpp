@@ -1,79 +1,22 @@
 #include "host/shell/doctor/doctor.h"
 
+#include <unistd.h>
+
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 
-#include "host/child/child.h"
 #include "host/child/environment.h"
-#include "host/child/programs.h"
+#include "host/content/document/checksum.h"
+#include "host/content/document/file.h"
+#include "host/shell/doctor/answers.h"
+#include "host/shell/doctor/cluster.h"
 #include "host/shell/doctor/show.h"
 #include "host/shell/launch/asked_machines.h"
 
 namespace mars::doctor {
 namespace {
 
-// The least of "4(x3),2", processors by machine: what a step may ask of every machine.
-std::uint32_t least_processors(const std::string& text) {
-  std::uint32_t least = 0;
-  for (std::size_t at = 0; at < text.size(); at = std::min(text.find(',', at), text.size() - 1) + 1) {
-    std::uint32_t processors = 0;
-    std::from_chars(text.data() + at, text.data() + text.size(), processors);
-    if (processors != 0 && (least == 0 || processors < least)) least = processors;
-  }
-  return std::max(least, 1u);
-}
-
-// A doctor on every machine of the job, with as many processors as it gives.
-child::Command ask_all(const std::filesystem::path& srun, const SlurmJob& job, std::uint32_t nodes_each,
-                       const std::filesystem::path& self) {
-  const std::string machines = std::to_string(job.machines);
-  const std::string given = child::own_environment().value("SLURM_JOB_CPUS_PER_NODE").value_or("1");
-  return {{},
-          {srun.string(), "--overlap", "--mpi=none", "--nodes=" + machines, "--ntasks=" + machines,
-           "--ntasks-per-node=1", "--cpus-per-task=" + std::to_string(least_processors(given)), self.string(), "doctor",
-           "--this-machine", "--nodes", std::to_string(nodes_each)}};
-}
-
-struct Answers {
-  std::vector<MachineFindings> machines;
-  std::string complaints;
-};
-
-Answers ask(const child::Command& command) {
-  constexpr std::chrono::seconds kLongest{60};
-  const auto deadline = std::chrono::steady_clock::now() + kLongest;
-  Answers answers;
-  child::Child child(command);
-  child.wait({[&](const std::string& line) { add_line(line, answers.machines); },
-              [&](const std::string& line) { answers.complaints += line + "\n"; },
-              [&] {
-                if (std::chrono::steady_clock::now() > deadline) child.stop();
-              }});
-  child::fail_if_stopped(child);
-  return answers;
-}
-
-// All machines of the job, this one only where the others cannot be asked.
-std::vector<MachineFindings> look_at_all(const Facts& facts, std::vector<Finding>& findings,
-                                         const std::filesystem::path& self) {
-  const std::vector<MachineFindings> here{{facts.host, check_machine(facts)}};
-  if (!facts.slurm || facts.slurm->machines < 2) return here;
-  const auto srun = child::find_program("srun", child::program_path(child::own_environment()));
-  if (!srun) return here;
-  const std::uint32_t machines = facts.slurm->machines;
-  Answers answers = ask(ask_all(*srun, *facts.slurm, (facts.nodes + machines - 1) / machines, self));
-  if (answers.machines.size() < machines) {
-    std::vector<std::string> names;
-    for (const MachineFindings& machine : answers.machines) names.push_back(machine.host);
-    findings.push_back({Finding::State::trouble, "machines",
-                        std::to_string(names.size()) + " of " + std::to_string(machines) + " answered" +
-                            (names.empty() ? "" : ": " + host_list(names)),
-                        "srun must reach every machine of the job, and MARS be under the same path on each" +
-                            (answers.complaints.empty() ? "" : "; it says:\n" + answers.complaints)});
-  }
-  return answers.machines.empty() ? here : answers.machines;
-}
+using State = Finding::State;
 
 // None where there is nothing to start, which the checks report.
 std::optional<launch::Trial> try_to_start(const DoctorOptions& options, const launch::Programs& programs,
@@ -83,6 +26,7 @@ std::optional<launch::Trial> try_to_start(const DoctorOptions& options, const la
   if (!mpi && !threads) return std::nullopt;
   options::RenderOptions render;
   render.nodes = options.nodes;
+  render.hostfile = options.hostfile;
   return launch::try_start(render, self);
 }
 
@@ -92,21 +36,92 @@ std::string names_of(const std::vector<MachineFindings>& machines) {
   return host_list(names);
 }
 
+// What must be the same on all machines, and what is of the job.
+bool is_shared(const Finding& finding) { return finding.about == "MARS" || finding.about == "MPI"; }
+bool is_of_job(const Finding& finding) { return finding.about == "Slurm" || finding.about == "srun"; }
+
+std::vector<Finding> all_of(const Cluster& cluster) {
+  std::vector<Finding> findings = cluster.findings;
+  for (Finding each : grouped(cluster.machines)) {
+    const auto is_alike = [&](const MachineFindings& machine) {
+      return std::ranges::count(machine.findings, each) > 0;
+    };
+    if (is_shared(each) && each.state != State::trouble && !std::ranges::all_of(cluster.machines, is_alike))
+      each = {State::trouble, each.about, each.found, "install the same under the same path on every machine"};
+    findings.push_back(each);
+  }
+  return findings;
+}
+
+// For a run that waits: the first line is what keeps machines apart.
+std::string advice_about(const Cluster& cluster) {
+  const std::vector<Finding> findings = all_of(cluster);
+  if (in_trouble(findings)) return cluster.cut_off + "\n" + short_text(findings);
+  return "\nall machines answer, and reach each other by TCP: " + names_of(cluster.machines);
+}
+
+// About this machine, for the doctor of another one.
+MachineFindings findings_for_another(const DoctorOptions& options, const std::filesystem::path& self) {
+  constexpr std::size_t kShownDigits = 8;
+  const Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
+  MachineFindings own{options.own_name, check_machine(facts)};
+  std::erase_if(own.findings, is_of_job);
+  if (facts.programs.node) {
+    const std::string node = document::read_file(*facts.programs.node);
+    const std::string checksum = document::checksum_of(std::as_bytes(std::span(node))).substr(0, kShownDigits);
+    own.findings.push_back({State::good, "MARS", options.version + ", mars-node " + checksum, ""});
+  }
+  if (options.token.empty()) return own;
+  const std::string folder = std::filesystem::path(options.token).parent_path().string();
+  own.findings.push_back(document::file_exists(options.token)
+                             ? Finding{State::good, "folder", folder + " is the same on all machines", ""}
+                             : Finding{State::note, "folder", folder + " is not that of the first machine",
+                                       "render into a folder that all machines share, or use --write host"});
+  return own;
+}
+
+// Answers on standard output, and stays until standard input ends; a minute at most.
+void answer_another(DoctorOptions options, const std::filesystem::path& self) {
+  constexpr unsigned kLongestVisit = 60;
+  constexpr std::chrono::seconds kPatience{3};
+  alarm(kLongestVisit);
+  // Slurm names the machine as its list of machines does.
+  if (options.own_name.empty())
+    options.own_name = child::own_environment().value("SLURMD_NODENAME").value_or(host_name());
+  const Door door;
+  std::cout << lines_of(findings_for_another(options, self))
+            << door_line({options.own_name, door.port(), own_addresses()}) << std::flush;
+  std::string line;
+  std::getline(std::cin, line);
+  std::cout << clock_line(options.own_name, std::chrono::system_clock::now()) << std::flush;
+  for (const Missed& each : knock(options.own_name, read_doors(line), kPatience)) std::cout << missed_line(each);
+  std::cout << met_line(options.own_name) << std::flush;
+  while (std::getline(std::cin, line)) {  // others may still knock here
+  }
+}
+
 }  // namespace
 
 bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self) {
-  Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
   if (options.this_machine) {
-    std::cout << lines_of({facts.host, check_machine(facts)}) << std::flush;
+    answer_another(options, self);
     return true;
   }
-  const std::optional<launch::Trial> trial = try_to_start(options, facts.programs, self);
+  const std::filesystem::path folder = std::filesystem::current_path() / options.folder;
+  const auto cluster = look_at_machines(options.hostfile, folder.lexically_normal().string(), self);
+  Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
+  std::optional<launch::Trial> trial;  // over machines in trouble it would only wait long
+  if (!cluster || !in_trouble(cluster->findings)) trial = try_to_start(options, facts.programs, self);
   if (trial && !trial->booted.nodes.empty()) facts.nodes = static_cast<std::uint32_t>(trial->booted.nodes.size());
-  std::vector<Finding> findings;
-  const std::vector<MachineFindings> machines = look_at_all(facts, findings, self);
-  for (const Finding& finding : grouped(machines)) findings.push_back(finding);
+  std::vector<Finding> findings = check_machine(facts);
+  std::string names = facts.host;
+  if (cluster) {
+    std::erase_if(findings, std::not_fn(is_of_job));
+    for (const Finding& each : all_of(*cluster)) findings.push_back(each);
+    names = names_of(cluster->machines);
+  }
   if (trial) findings.push_back(check_start(*trial));
-  std::cout << "MARS " << options.version << " on " << names_of(machines) << "\n" << text_of(findings);
+  std::cout << "MARS " << options.version << " on " << names << "\n" << text_of(findings);
   if (options.nodes != 0) {
     std::cout << placement_text(topology::Machine::here(), static_cast<int>(options.nodes), options.reserved_cores);
   }
@@ -115,12 +130,18 @@ bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self)
 }
 
 launch::Adviser adviser(const std::filesystem::path& self) {
-  const auto question = [self](launch::Ask ask) {
-    return [self, ask](const options::RenderOptions& options) {
-      return short_text(check_machine(gather_facts(self, options.nodes, ask)));
-    };
+  const auto here = [self](const options::RenderOptions& options, launch::Ask ask) {
+    return short_text(check_machine(gather_facts(self, options.nodes, ask)));
   };
-  return {question(launch::Ask::no_programs), question(launch::Ask::programs)};
+  return {[here](const options::RenderOptions& options) { return here(options, launch::Ask::no_programs); },
+          [here, self](const options::RenderOptions& options) {
+            const auto cluster = look_at_machines(options.hostfile, "", self);
+            return cluster ? short_text(all_of(*cluster)) : here(options, launch::Ask::programs);
+          },
+          [self](const options::RenderOptions& options) {
+            const auto cluster = look_at_machines(options.hostfile, "", self);
+            return cluster ? advice_about(*cluster) : "";
+          }};
 }
 
 }  // namespace mars::doctor

@@ -41,12 +41,6 @@ std::string answer(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string host_name() {
-  char name[256] = {};
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
 std::string container(const child::Environment& environment) {
   if (const auto name = environment.value("container")) return *name;
   if (environment.value("APPTAINER_NAME") || environment.value("SINGULARITY_NAME")) return "apptainer";
@@ -97,12 +91,14 @@ std::uint32_t number(const std::optional<std::string>& text, std::uint32_t other
   return value;
 }
 
-std::optional<SlurmJob> slurm_job(const child::Environment& environment, const std::string& path, launch::Ask ask) {
+// `tasks`: of all machines.
+std::optional<SlurmJob> slurm_job(const child::Environment& environment, const std::string& path, launch::Ask ask,
+                                  std::uint32_t tasks) {
   const auto id = environment.value("SLURM_JOB_ID");
   if (!id) return std::nullopt;
   SlurmJob job{*id,
                number(environment.value("SLURM_NNODES"), 1),
-               number(environment.value("SLURM_NTASKS"), 0),
+               number(environment.value("SLURM_NTASKS"), tasks),
                environment.value("SLURM_CPUS_PER_TASK").value_or(""),
                environment.value("SRUN_CPUS_PER_TASK").value_or(""),
                false,
@@ -114,6 +110,12 @@ std::optional<SlurmJob> slurm_job(const child::Environment& environment, const s
 }
 
 }  // namespace
+
+std::string host_name() {
+  char name[256] = {};
+  gethostname(name, sizeof name - 1);
+  return name;
+}
 
 Facts gather_facts(const fs::path& self, std::uint32_t nodes, launch::Ask ask) {
   const child::Environment environment = child::own_environment();
@@ -143,7 +145,7 @@ Facts gather_facts(const fs::path& self, std::uint32_t nodes, launch::Ask ask) {
   if (window && ask == launch::Ask::programs) facts.window_lacking = lacking_libraries(*window);
   facts.view_library = images::view_library_version();
   facts.display = environment.value("DISPLAY").value_or(environment.value("WAYLAND_DISPLAY").value_or(""));
-  facts.slurm = slurm_job(environment, path, ask);
+  facts.slurm = slurm_job(environment, path, ask, facts.surroundings.tasks);
   facts.nodes = nodes != 0 ? nodes : facts.processors;
   return facts;
 }

@@ -56,6 +56,8 @@ struct Facts {
   std::uint32_t nodes = 1;  // of a rendering on this machine
 };
 
+std::string host_name();
+
 // `self`: the running program's own file; `nodes`: 0 for one a processor. Throws Failure where a signal stops it.
 Facts gather_facts(const std::filesystem::path& self, std::uint32_t nodes, launch::Ask ask);
 

@@ -154,7 +154,7 @@ std::string lines_of(const MachineFindings& machine) {
   return lines;
 }
 
-bool add_line(std::string_view line, std::vector<MachineFindings>& machines) {
+bool add_line(std::string_view line, std::vector<MachineFindings>& machines) try {
   const json from = json::parse(line, nullptr, false);
   if (!from.is_object() || !from.contains("host")) return false;
   const std::string host = from.at("host");
@@ -163,6 +163,8 @@ bool add_line(std::string_view line, std::vector<MachineFindings>& machines) {
   if (machine == machines.end()) machine = machines.insert(machine, {host, {}});
   machine->findings.push_back({from.at("state"), from.at("about"), from.at("found"), from.at("remedy")});
   return true;
+} catch (const json::exception&) {
+  return false;
 }
 
 std::string placement_text(const topology::Machine& machine, int nodes, int reserved) {

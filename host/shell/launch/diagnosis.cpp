@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <string_view>
 
 #include "host/shell/launch/losses.h"
 #include "host/shell/launch/mpi_words.h"
@@ -60,6 +61,27 @@ Failure unknown(const Remains& remains) {
   return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
 }
 
+// The machine of which a starter speaks: "Node: n3", "Local host: n3", "[proxy:0:1@n3] ..."; "": it names none.
+std::string machine_in(const std::string& words) {
+  for (const char* label : {"Node: ", "Local host: "}) {
+    TextReader line(words);
+    if (line.find(label)) return line.word().value_or("");
+  }
+  TextReader line(words);
+  if (!line.find("[proxy:") || !line.find("@")) return "";
+  const std::string name = line.word().value_or("");
+  return name.substr(0, name.find(']'));
+}
+
+// "a machine does not have MARS's programs" is of that machine.
+Failure with_machine(const Failure& known, const std::string& words) {
+  constexpr std::string_view kOne = "a machine ";
+  const std::string machine = known.where.empty() ? machine_in(words) : "";
+  if (machine.empty()) return known;
+  return Failure(known.problem.substr(known.problem.starts_with(kOne) ? kOne.size() : 0), "machine " + machine,
+                 known.remedy);
+}
+
 // The reason why it did not start is likely to be seen from here, too.
 Failure with_advice(const Failure& failure, const Advice& advice) {
   if (!advice) return failure;
@@ -73,12 +95,17 @@ Failure with_advice(const Failure& failure, const Advice& advice) {
 Diagnosis cause(const Remains& remains, const std::string& words, const std::optional<Loss>& loss,
                 const Advice& advice) {
   if (remains.fault) return reported(*remains.fault, remains.booted);
+  if (remains.is_cut_off()) return {Failure(remains.cut_off, "", kOpenPorts), {}};
   const auto advised = [&](const Failure& failure) { return remains.booted ? failure : with_advice(failure, advice); };
   if (!remains.ended_for.empty()) return {advised(Failure(remains.ended_for, "", "")), {}};
   if (const auto own = own_words(remains.last_words)) return {advised(*own), {}};
   if (loss && loss->machine_lost) return {loss->failure, {}, loss->machine, true};
   if (loss && loss->in_words) return {advised(loss->failure), loss->node, loss->machine};
-  if (const auto known = meaning_of(words, remains.machines)) return {*known, {}};
+  if (const auto known = meaning_of(words, remains.machines)) {
+    const Failure found = with_machine(*known, words);
+    const bool unnamed = found.where.empty() && found.problem.find("another machine") != std::string::npos;
+    return {unnamed ? advised(found) : found, {}};
+  }
   return {advised(loss ? loss->failure : unknown(remains)), {}};
 }
 

@@ -21,28 +21,24 @@
 #include "host/render/sinks/frame_folder.h"
 #include "host/render/sinks/verify.h"
 #include "host/content/document/text.h"
-#include "host/shell/launch/background_text.h"
 #include "host/shell/launch/between_jobs.h"
 #include "host/shell/launch/command.h"
 #include "host/shell/launch/display.h"
 #include "host/shell/launch/film_check.h"
 #include "host/shell/launch/film_panorama.h"
 #include "host/shell/launch/film_videos.h"
-#include "host/shell/launch/hostfile.h"
-#include "host/shell/launch/job.h"
 #include "host/shell/launch/rendering_window.h"
-#include "host/shell/launch/seen_folder.h"
+#include "host/shell/launch/shown_job.h"
+#include "host/shell/launch/starting.h"
 #include "host/shell/launch/supervisor.h"
 
 namespace mars::launch {
 
 namespace {
 
-constexpr std::chrono::seconds kSlowStart{20};  // of waiting for nodes, until a person learns that none has answered
 constexpr std::chrono::seconds kLongestTrial{30};
 constexpr std::chrono::milliseconds kLongestClearing{2500};  // after a run that failed
 constexpr std::chrono::milliseconds kClearingLook{5};
-constexpr std::chrono::milliseconds kFolderLook{50};
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -63,109 +59,12 @@ std::uint32_t clear_ended_runs(const std::string& folder, const std::string& end
   return pread(answer.number(), &frames, sizeof frames, 0) == sizeof frames ? frames : 0;
 }
 
-// Jobs are started from these, which are found once: programs are started to find them.
-struct Starting {
-  Programs programs;
-  Surroundings surroundings;
-  std::string path;
-};
-
-// Settles the number of nodes and the backend.
-Starting prepare(options::RenderOptions& options, const std::filesystem::path& self) {
-  const child::Environment environment = child::own_environment();
-  const std::string path = child::program_path(environment);
-  Starting starting{find_programs(self, path), {}, path};
-  options.backend = choose_backend(options, starting.programs, environment);
-  starting.surroundings = look_around(path);
-  if (options.nodes == 0) options.nodes = default_nodes(options, starting.surroundings);
-  options::check_nodes(options, cores_in_use(options, starting.surroundings));
-  return starting;
-}
-
-child::Command command_for(const options::RenderOptions& options, const Starting& starting,
-                           const std::vector<Slots>& machines = {}) {
-  Surroundings surroundings = starting.surroundings;
-  surroundings.machines = machines;
-  if (options.backend == options::Backend::threads) return threads_command(options, starting.programs);
-  if (options.backend == options::Backend::simulated) return simulated_command(options, starting.programs);
-  return mpi_command(options, starting.programs, surroundings);
-}
-
-// Over MPI only: threads know no other machine.
-std::vector<Slots> machines_of(const options::RenderOptions& options, const Starting& starting) {
-  if (options.backend != options::Backend::mpi) return {};
-  if (!options.hostfile.empty()) return read_hostfile(options.hostfile);
-  return slurm_machines(starting.surroundings.environment, starting.path);
-}
-
-// The machines in the order of ranks; none where ranks are more than slots: they go round over the machines then.
-std::vector<Slots> by_rank(const options::RenderOptions& options, const std::vector<Slots>& machines) {
-  std::uint64_t slots = 0;
-  for (const Slots& each : machines) slots += each.count;
-  return options.nodes < slots ? machines : std::vector<Slots>();
-}
-
-Question question_of(const options::RenderOptions& options, const Starting& starting) {
-  if (starting.surroundings.tasks != 0) return Question::slurm;
-  return options.hostfile.empty() ? Question::nobody : Question::ssh;
-}
-
 // Slurm ends the processes on the other machines first: what began again on this one would only keep the other job
 // waiting.
 void fail_if_preempted(const options::RenderOptions& options, const Starting& starting) {
   if (is_preempted(starting.surroundings.environment, starting.path))
     throw Failure("Slurm takes the machines for another job", options.folder,
                   "the same command goes on with the missing frames");
-}
-
-// Waits until it is known, after a job that ended well.
-bool is_missed(SeenFolder& folder) {
-  for (; folder.is_open(); std::this_thread::sleep_for(kFolderLook)) folder.look_for_frames(SeenFolder::Clock::now());
-  return folder.is_missed();
-}
-
-Failure no_frames_for_videos(const std::string& machine, const options::RenderOptions& options) {
-  return Failure("the host writes frames into this folder on " + machine +
-                     ", and this machine, which makes videos of them, does not see them",
-                 options.folder, "put the folder or the video where all machines see it, or start this there");
-}
-
-std::string elsewhere_text(const std::string& folder, const std::string& machine) {
-  return "the folder " + folder + " is on " + machine + ", and this machine does not see it";
-}
-
-// One job as a person sees it. `host`: its host's machine.
-Remains show_job(const child::Command& command, const options::RenderOptions& options,
-                 const std::function<std::string()>& host, Display& display, const Adviser& adviser) {
-  display.print(shell_text(command));
-  BackgroundText hint;
-  SeenFolder folder(options.folder);
-  Job job(display);
-  job.follow(command, {kSlowStart,
-                       [&](child::Child&) {
-                         display.print("no node has answered for " + std::to_string(kSlowStart.count()) + " seconds");
-                         hint.begin([ask = adviser.while_it_starts, options] { return ask(options); });
-                       },
-                       [&] {
-                         if (const std::string text = hint.take(); !text.empty()) display.print(text);
-                         if (folder.look(job.remains().run, SeenFolder::Clock::now()) && options.videos.empty())
-                           display.print("warning: " + elsewhere_text(options.folder, host()));
-                       },
-                       [&] { return folder.is_missed() && !options.videos.empty(); }});
-  display.settle();
-  Remains remains = job.remains();
-  if (remains.well() ? is_missed(folder) : folder.is_missed()) remains.elsewhere = host();
-  if (!remains.elsewhere.empty() && !options.videos.empty() && remains.passed_on == 0)
-    throw no_frames_for_videos(remains.elsewhere, options);
-  return remains;
-}
-
-// The machine of the host of a job on `machines`, none: the options'. A scheduler that MARS does not know may place it
-// without a word.
-std::string host_of(const options::RenderOptions& options, const Starting& starting,
-                    const std::vector<Slots>& machines) {
-  const std::vector<Slots> used = machines.empty() ? machines_of(options, starting) : machines;
-  return used.empty() ? "another machine" : used.front().host;
 }
 
 std::optional<std::uint32_t> count_there(const std::string& folder, const std::vector<std::uint32_t>& frames) try {
@@ -177,11 +76,7 @@ std::optional<std::uint32_t> count_there(const std::string& folder, const std::v
 Supervisor::World world_of(const options::RenderOptions& options, const Starting& starting, Display& display,
                            const Adviser& adviser) {
   return {[&](const options::RenderOptions& job, const std::vector<Slots>& machines) {
-            const auto host = [&] { return host_of(job, starting, machines); };
-            Remains remains = show_job(command_for(job, starting, machines), job, host, display, adviser);
-            if (!remains.booted && remains.passed_on == 0)
-              remains.machines = by_rank(job, machines.empty() ? machines_of(job, starting) : machines);
-            return remains;
+            return show_job(job, starting, machines, display, adviser);
           },
           [&](const std::string& run) { return options.folder.empty() ? 0 : clear_ended_runs(options.folder, run); },
           [&] { return machines_of(options, starting); },

@@ -19,6 +19,9 @@ struct Adviser {
   using Question = std::function<std::string(const options::RenderOptions& options)>;
   Question while_it_starts;  // asked on a thread of its own while the run is waited for: starts no program
   Question after_a_failed_start;
+  // About all machines of the run, where it has others than this one: which do not reach each other ("": all do), and
+  // on the next lines what else there is to say.
+  Question about_machines;
 };
 
 // Returns when all frames are where they belong. `self`: the running program's own file. Throws Failure where

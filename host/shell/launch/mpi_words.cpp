@@ -19,9 +19,6 @@ constexpr const char* kNotAllocated = "the hostfile names a machine that the bat
 constexpr const char* kUseAllocated = "name only machines of the job, or leave out --hostfile";
 constexpr const char* kMakeShmLarger =
     "enlarge /dev/shm: mount -o remount,size=1G /dev/shm, or start the container with --shm-size=1g";
-constexpr const char* kOpenPorts =
-    "open the ports between the machines, or name their network: export OMPI_MCA_btl_tcp_if_include=eth0 "
-    "OMPI_MCA_oob_tcp_if_include=eth0";
 
 constexpr std::string_view kNoLibrary = "error while loading shared libraries:";
 constexpr const char* kNoPrograms = "a machine does not have MARS's programs";

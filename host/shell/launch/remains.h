@@ -25,6 +25,7 @@ struct Remains {
   std::optional<events::Done> done;
   std::string elsewhere;  // the machine where its frames are, where this one does not see them; "": it sees them
   std::string ended_for;  // why we ended it: what it did not say or do; "": we did not
+  std::string cut_off;    // which machines do not reach each other, as the doctor found meanwhile; "": none is known
   child::Ending ending;
   int passed_on = 0;                   // the signal with which the person stopped it; 0: none
   std::deque<std::string> last_words;  // lines of standard error, the last ones
@@ -43,6 +44,8 @@ struct Remains {
                                [&](const std::string& line) { return line.starts_with("mars: ") && is_own(line); });
   }
   // All its frames are where they belong, though it may have had to be ended.
+  // It would not begin another time either.
+  bool is_cut_off() const { return !booted && !cut_off.empty(); }
   bool well() const { return done && (ending.well() || !ended_for.empty()); }
   // Frames that it brought.
   std::uint32_t brought() const { return std::max(progress.done(), recorded); }

@@ -91,7 +91,7 @@ std::string Supervisor::loss_text(std::uint32_t there) const {
 // has never begun would end as it did, unless something died or somebody ended it.
 bool Supervisor::may_help() const {
   if (last_.passed_on != 0 || options_.restarts == 0 || options_.sink == options::SinkKind::none) return false;
-  if (options_.backend == options::Backend::simulated) return false;
+  if (options_.backend == options::Backend::simulated || last_.is_cut_off()) return false;
   if (diagnose(last_, options_, {}).died) return true;
   if (last_.fault) return booted_ && (last_.fault->node || lost() > 0);
   return booted_ || !last_.ended_for.empty();
@@ -99,7 +99,7 @@ bool Supervisor::may_help() const {
 
 // Then even a job that has never begun may begin without it.
 bool Supervisor::a_machine_is_gone() {
-  if (last_.passed_on != 0 || options_.restarts == 0 || last_.fault || booted_) return false;
+  if (last_.passed_on != 0 || options_.restarts == 0 || last_.fault || booted_ || last_.is_cut_off()) return false;
   const std::vector<std::string> names = Machines(world_.machines(), 1).names();
   return !names.empty() && ask(std::chrono::seconds(0), names).size() < names.size();
 }

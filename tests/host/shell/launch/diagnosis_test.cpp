@@ -54,6 +54,21 @@ TEST(Diagnosis, OfAKilledRank) {
   EXPECT_TRUE(document::holds(message(words("0")), "out of memory"));
 }
 
+TEST(Diagnosis, NamesTheMachineThatTheWordsName) {
+  EXPECT_TRUE(message(failed_with({"mpirun was unable to find the specified executable file, and therefore",
+                                   "did not launch the job.", "", "Node:       n3", "Executable: /opt/mars-node"}))
+                  .starts_with("machine n3: does not have MARS's programs (put them under the same path"));
+  EXPECT_TRUE(message(failed_with({"[proxy:0:1@n3] HYDU_create_process (launch.c:74): execvp error on file /opt/x"}))
+                  .starts_with("machine n3: does not have MARS's programs ("));
+  EXPECT_TRUE(message(failed_with({"execvp error on file /opt/x"})).starts_with("a machine does not have"));
+}
+
+// Which machine it was, the doctor says.
+TEST(Diagnosis, AsksForTheMachineThatTheWordsDoNotName) {
+  EXPECT_TRUE(message(failed_with({"ORTE was unable to reliably start one or more daemons."}))
+                  .ends_with("\n/dev/shm is small)"));
+}
+
 TEST(Diagnosis, OfALostMachine) {
   EXPECT_EQ(
       message(failed_with({"ORTE has lost communication with a remote daemon.", "",

@@ -116,6 +116,28 @@ TEST_F(SupervisorOf, AJobThatEndsWellIsStartedOnce) {
   EXPECT_EQ(supervisor.restarts(), 0u);
 }
 
+// Another start would wait as long for the same machines.
+TEST_F(SupervisorOf, MachinesThatDoNotReachEachOtherEndTheRun) {
+  Remains waited;
+  waited.ended_for = "not all nodes have answered for 120 seconds";
+  waited.cut_off = "n1,n2 cannot reach n3 by TCP: packets are dropped, by a firewall?";
+  machines_ = {{"n1", 4}, {"n2", 4}, {"n3", 4}};
+  answering_ = {"n1", "n2"};
+  Supervisor supervisor = supervise({waited});
+  const std::string failure = document::failure_of([&] { supervisor.render(); });
+  EXPECT_TRUE(failure.starts_with(waited.cut_off + " (open the ports")) << failure;
+  EXPECT_EQ(starts_.size(), 1u);
+}
+
+// A job that has begun all the same was not kept from it.
+TEST_F(SupervisorOf, MachinesThatReachEachOtherInTheEndMayFail) {
+  Remains failed = killed(1, 2, {0}, 2);
+  failed.cut_off = "n1 cannot reach n2 by TCP: packets are dropped, by a firewall?";
+  Supervisor supervisor = supervise({failed, done({1}, 2, 1)});
+  supervisor.render();
+  EXPECT_EQ(starts_.size(), 2u);
+}
+
 // All frames were taken, but what the host records at its end may be missing.
 TEST_F(SupervisorOf, AHostThatFailsAfterTheLastFrameIsAFailure) {
   Remains failed = booted({0, 1, 2}, 3, 0);

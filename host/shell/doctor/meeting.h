@@ -1,0 +1,50 @@
+// Whether machines reach each other by TCP: each opens a door, a socket that listens, and all knock at all doors at the
+// same time. Open MPI's daemons and ranks need the same.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/child/descriptor.h"
+
+namespace mars::doctor {
+
+// A machine and its door.
+struct Peer {
+  std::string host;
+  std::uint16_t port = 0;
+  std::vector<std::string> addresses;  // IPv4
+
+  bool operator==(const Peer&) const = default;
+};
+
+class Door {
+ public:
+  // At a port that nobody uses. Throws Failure where the system gives none.
+  explicit Door(const std::string& address = "0.0.0.0");
+
+  std::uint16_t port() const { return port_; }
+
+ private:
+  child::Descriptor socket_;
+  std::uint16_t port_ = 0;
+};
+
+// Of this machine's networks; where it has none, 127.0.0.1.
+std::vector<std::string> own_addresses();
+
+// A machine that was reached at none of its addresses.
+struct Missed {
+  std::string from, to;
+  std::string how;  // what became of the packets to its first address
+
+  bool operator==(const Missed&) const = default;
+};
+
+// `from` knocks at all doors. `patience`: until packets that have no answer count as dropped.
+std::vector<Missed> knock(const std::string& from, std::span<const Peer> peers, std::chrono::milliseconds patience);
+
+}  // namespace mars::doctor
