@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
@@ -39,7 +40,21 @@ class SessionFoldersTest : public testing::Test {
     setenv("TMPDIR", base_.path().c_str(), 1);
   }
   ~SessionFoldersTest() override {
-    for (const char* name : {"TMPDIR", "TMP"}) unsetenv(name);
+    for (const char* name : {"TMPDIR", "TMP", "OMPI_COMM_WORLD_LOCAL_RANK"}) unsetenv(name);
+  }
+
+  // As Open MPI names it for a user of a machine.
+  static std::string machine_and_user(const std::string& host = "") {
+    std::array<char, 256> here{};
+    gethostname(here.data(), here.size() - 1);
+    const std::string name = host.empty() ? here.data() : host;
+    return name.substr(0, name.find('.')) + "." + std::to_string(geteuid());
+  }
+
+  static fs::path write(const fs::path& file) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << "shared";
+    return file;
   }
 
   bool base_is_empty() const { return fs::is_empty(base_.path()); }
@@ -129,6 +144,47 @@ TEST_F(SessionFoldersTest, OfALivingJobStayAndOfAnEndedOneGo) {
   { const SessionFolders next(second); }
   EXPECT_TRUE(fs::exists(lives));
   EXPECT_FALSE(fs::exists(ended));
+}
+
+TEST_F(SessionFoldersTest, WhatOrtedAndRanksLeftGoesUnlessAProcessHoldsIt) {
+  const fs::path sessions = base_.path() / ("ompi." + machine_and_user());
+  const fs::path dead = write(sessions / "jf.7/hwloc.sm"), open_file = write(sessions / "jf.70/hwloc.sm"),
+                 mapped = write(sessions / "pid.8/pmix_dstor_ds21_8/smseg-0"), begun = sessions / "jf.9/0",
+                 others = write(base_.path() / ("ompi." + machine_and_user("elsewhere")) / "jf.7/hwloc.sm");
+  fs::create_directories(begun);
+  fs::create_directory_symlink(others.parent_path(), sessions / "jf.10");
+  const int held = open(open_file.c_str(), O_RDONLY), brief = open(mapped.c_str(), O_RDONLY);
+  void* memory = mmap(nullptr, 6, PROT_READ, MAP_SHARED, brief, 0);
+  close(brief);
+  remove_what_ended_jobs_left();
+  EXPECT_FALSE(fs::exists(dead.parent_path()));
+  for (const fs::path& living : {open_file, mapped, begun, others}) EXPECT_TRUE(fs::exists(living)) << living;
+  munmap(memory, 6);
+  close(held);
+  remove_what_ended_jobs_left();
+  for (const fs::path& gone : {open_file, mapped}) EXPECT_FALSE(fs::exists(gone.parent_path())) << gone;
+  for (const fs::path& living : {begun, others}) EXPECT_TRUE(fs::exists(living)) << living;
+}
+
+TEST_F(SessionFoldersTest, TheFirstRankOfAMachineRemovesDeadMemory) {
+  const std::string job = std::to_string(std::random_device()());  // no other test's, which would be in the same folder
+  const auto segment = [&](const std::string& owner, const char* rank) {
+    return write("/dev/shm/vader_segment." + owner + "." + job + "." + rank);
+  };
+  const fs::path dead = segment(machine_and_user(), "0"), others = segment(machine_and_user("elsewhere"), "0");
+  const fs::path living = segment(machine_and_user(), "1");
+  const int held = open(living.c_str(), O_RDONLY);
+  for (const char* rank : {"1", ""}) {
+    setenv("OMPI_COMM_WORLD_LOCAL_RANK", rank, 1);
+    clean_machine_as_rank();
+    EXPECT_TRUE(fs::exists(dead)) << "rank " << rank;
+  }
+  setenv("OMPI_COMM_WORLD_LOCAL_RANK", "0", 1);
+  clean_machine_as_rank();
+  EXPECT_FALSE(fs::exists(dead));
+  EXPECT_TRUE(fs::exists(living));
+  close(held);
+  for (const fs::path& ours : {living, others}) EXPECT_TRUE(fs::remove(ours)) << ours;
 }
 
 }  // namespace
