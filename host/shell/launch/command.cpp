@@ -92,10 +92,6 @@ void add_loopback(child::Command& command, const Programs& programs, const Surro
   command.environment.emplace_back("LD_PRELOAD", programs.loopback->string() + (others ? ":" + *others : ""));
 }
 
-void add_arguments(child::Command& command, options::Program program, const options::RenderOptions& options) {
-  for (std::string& word : options::arguments_for(program, options)) command.words.push_back(std::move(word));
-}
-
 }  // namespace
 
 Mpi our_mpi() { return MARS_MPICH ? Mpi::mpich : Mpi::open_mpi; }
@@ -293,28 +289,6 @@ child::Command mpi_start(const options::RenderOptions& options, const Programs& 
                   "ulimit -v", "raise it to " + std::to_string(kLeastForMpi >> 10) + " or more: ulimit -v unlimited");
   return programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
                                     : open_mpi_start(options, programs, surroundings);
-}
-
-child::Command mpi_command(const options::RenderOptions& options, const Programs& programs,
-                           const Surroundings& surroundings) {
-  child::Command command = mpi_start(options, programs, surroundings);
-  // Nodes bind themselves, each by its place on its machine.
-  command.words.insert(command.words.end(), {"-n", "1", programs.host->string()});
-  add_arguments(command, options::Program::host, options);
-  command.words.insert(command.words.end(), {":", "-n", std::to_string(options.nodes), programs.node->string()});
-  return command;
-}
-
-child::Command threads_command(const options::RenderOptions& options, const Programs& programs) {
-  child::Command command{{}, {programs.threads->string()}};
-  add_arguments(command, options::Program::threads, options);
-  return command;
-}
-
-child::Command simulated_command(const options::RenderOptions& options, const Programs& programs) {
-  child::Command command{{}, {programs.simulated->string()}};
-  add_arguments(command, options::Program::simulated, options);
-  return command;
 }
 
 }  // namespace mars::launch
