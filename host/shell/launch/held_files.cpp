@@ -18,10 +18,11 @@ bool is_process(const std::string& name) {
 }  // namespace
 
 // Of each process first what it has open: what it then takes into memory it may close.
-std::vector<std::string> held_files(std::string_view part) {
+std::vector<std::string> held_files(std::initializer_list<std::string_view> parts) {
   std::vector<std::string> held;
   const auto take = [&](std::string path) {
-    if (path.find(part) != std::string::npos) held.push_back(std::move(path));
+    const bool wanted = std::ranges::any_of(parts, [&](auto part) { return path.find(part) != std::string::npos; });
+    if (wanted) held.push_back(std::move(path));
   };
   std::error_code error, ignored;  // a process ends meanwhile, or is another user's
   for (fs::directory_iterator process("/proc", error), end; !error && process != end; process.increment(error)) {

@@ -128,50 +128,61 @@ bool has_files_of_a_helper(const fs::path& session) {
   return found;
 }
 
-// Removes those of `ours` that no process holds. They were listed before: what a process makes after it is not among
-// them.
-void remove_unless_held(const std::vector<fs::path>& ours, std::string_view part) {
-  if (ours.empty()) return;
-  const std::vector<std::string> held = held_files(part);
-  for (const fs::path& path : ours) {
-    const std::string names = path.parent_path().filename() / path.filename() / "";
-    const auto is_in = [&](const std::string& file) { return (file + "/").find(names) != std::string::npos; };
-    std::error_code ignored;
-    if (std::ranges::none_of(held, is_in)) fs::remove_all(path, ignored);
-  }
-}
-
-// What orted and ranks left that were killed on this machine.
-void remove_dead_sessions(const fs::path& base) {
-  const std::string name = "ompi" + machine_part();
-  std::vector<fs::path> sessions, segments;
-  if (is_own(base / name, S_IFDIR)) {
-    for_each_entry(base / name, [&](const fs::path& session) {
+// What mpirun, its helpers and ranks of this machine and user keep.
+std::vector<fs::path> sessions_in(const fs::path& base) {
+  std::vector<fs::path> sessions;
+  const fs::path all = base / ("ompi" + machine_part());
+  if (is_own(all, S_IFDIR))
+    for_each_entry(all, [&](const fs::path& session) {
       if (is_own(session, S_IFDIR) && has_files_of_a_helper(session)) sessions.push_back(session);
     });
-  }
-  remove_unless_held(sessions, "/" + name + "/");
+  return sessions;
+}
+
+std::vector<fs::path> shared_segments() {
+  std::vector<fs::path> segments;
   for_each_entry(kSharedMemory, [&](const fs::path& file) {
-    const std::string start = "vader_segment" + machine_part() + ".";
-    if (file.filename().string().starts_with(start) && is_own(file, S_IFREG)) segments.push_back(file);
+    const bool ours = file.filename().string().starts_with("vader_segment" + machine_part() + ".");
+    if (ours && is_own(file, S_IFREG)) segments.push_back(file);
   });
-  remove_unless_held(segments, "/vader_segment.");
+  return segments;
+}
+
+bool is_in(const std::string& file, const fs::path& path) {
+  const std::string names = path.parent_path().filename() / path.filename() / "";
+  return (file + "/").find(names) != std::string::npos;
+}
+
+// What was killed on this machine left it. `ours`: this job's session, which shows whether we see the machine's
+// processes: a container may have its own.
+void remove_what_nobody_holds(const std::vector<fs::path>& left, const fs::path& ours) {
+  if (left.empty()) return;
+  const std::vector<std::string> held = held_files({"/ompi.", "/vader_segment."});
+  const auto is_held = [&](const fs::path& path) {
+    return std::ranges::any_of(held, [&](const std::string& file) { return is_in(file, path); });
+  };
+  if (!is_held(ours)) return;
+  std::error_code ignored;
+  for (const fs::path& path : left)
+    if (!is_held(path)) fs::remove_all(path, ignored);
+}
+
+void remove_ended_folders(const fs::path& temporary) {
+  for (const fs::path& base : {temporary, fs::path(kSharedMemory)}) remove_ended_in(base);
 }
 
 }  // namespace
 
-void remove_what_ended_jobs_left() {
-  const child::Environment environment = child::own_environment();
-  std::error_code unknown;
-  for (const fs::path& base : {fs::absolute(child::temporary_folder(environment), unknown), fs::path(kSharedMemory)})
-    remove_ended_in(base);
-  remove_dead_sessions(base_of_sessions(environment));
-}
-
+// All is listed before it is asked who holds it: what begins meanwhile is not among it.
 void clean_machine_as_rank() {
   const child::Environment environment = child::own_environment();
-  for (const char* number_here : {"OMPI_COMM_WORLD_LOCAL_RANK", "SLURM_LOCALID"})
-    if (environment.value(number_here) == "0") return remove_what_ended_jobs_left();
+  const auto session = environment.value("OMPI_MCA_orte_jobfam_session_dir");
+  if (!session || environment.value("OMPI_COMM_WORLD_LOCAL_RANK") != "0") return;
+  std::vector<fs::path> left = shared_segments();
+  for (const fs::path& base : {fs::path(child::temporary_folder(environment)), base_of_sessions(environment)})
+    for (const fs::path& each : sessions_in(base)) left.push_back(each);
+  remove_what_nobody_holds(left, *session);
+  remove_ended_folders(child::temporary_folder(environment));
 }
 
 void remove_session_of(pid_t mpirun) {
@@ -182,10 +193,10 @@ void remove_session_of(pid_t mpirun) {
 }
 
 SessionFolders::SessionFolders(child::Command& command) {
-  remove_what_ended_jobs_left();
-  if (command.open_mpi != child::OpenMpi::on_this_machine) return;
   std::error_code unknown;  // where we are: then a relative name means nothing
   const fs::path temporary = fs::absolute(child::temporary_folder(child::own_environment()), unknown);
+  remove_ended_folders(temporary);
+  if (command.open_mpi != child::OpenMpi::on_this_machine) return;
   if (!unknown) add(temporary, {kBase}, command);
   add(kSharedMemory, {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"}, command);
 }

@@ -17,11 +17,8 @@
 
 namespace mars::launch {
 
-// Removes what this user's jobs left that have ended on this machine, MARS's and others of Open MPI's; nothing that a
-// living process has.
-void remove_what_ended_jobs_left();
-
-// The same by a rank before it joins its job, if it is the first of its machine: mpirun may be on another.
+// For a rank of Open MPI before it joins its job. The first of a machine removes there what this user's jobs left whose
+// processes were killed: folders of sessions and shared memory that no process holds.
 void clean_machine_as_rank();
 
 // Removes what a job on several machines, whose mpirun has ended here, left on this machine if mpirun was killed: its
