@@ -79,7 +79,7 @@ class WithoutRoot(ProgramTest):
                 if sudo:
                     self.stand_in("sudo", sudo)
                 printed, notes = self.bootstrap(0)
-                self.assertRegex(printed, r"Left out, .*\n  videos: FFmpeg, which makes videos\n  as root: +apt-get install "
+                self.assertRegex(printed, r"Left out, .*\n  videos: FFmpeg\n  as root: +apt-get install "
                                           r"ffmpeg\n  or modules: +module load ffmpeg .*\n  or Spack: +spack install ffmpeg ")
                 self.assertNotIn("Missing here", printed)
                 self.assertIn("cmake --build", notes)
