@@ -13,6 +13,8 @@
 
 #include <hwloc.h>
 
+#include "topology/processor_limit.h"
+
 namespace mars::topology {
 namespace {
 
@@ -125,6 +127,7 @@ Machine Machine::load_here() {
 Machine Machine::here() {
   Machine machine = load_here();
   restrict_to_affinity(machine.topology_.get());
+  machine.limit_ = processor_limit();
   return machine;
 }
 
@@ -137,8 +140,10 @@ Machine Machine::synthetic(const std::string& description) {
   return machine;
 }
 
-int Machine::cores() const { return count(topology_.get(), core_type(topology_.get())); }
-int Machine::processors() const { return count(topology_.get(), HWLOC_OBJ_PU); }
+int Machine::limited(int count) const { return limit_ == 0 ? count : std::min(count, limit_); }
+int Machine::all_cores() const { return count(topology_.get(), core_type(topology_.get())); }
+int Machine::cores() const { return limited(all_cores()); }
+int Machine::processors() const { return limited(count(topology_.get(), HWLOC_OBJ_PU)); }
 std::uint64_t Machine::memory() const { return hwloc_get_root_obj(topology_.get())->total_memory; }
 
 // How much lies between a core and the one before: less the more they share.
@@ -162,8 +167,8 @@ int Machine::cut(const Place& cores, int left, int right) const {
 }
 
 std::optional<Place> Machine::place(int k, int n, int reserved, int first_id) const {
-  const int all = cores();
-  if (k < 0 || k >= n || n > all) return std::nullopt;
+  const int all = all_cores();
+  if (k < 0 || k >= n || n > cores()) return std::nullopt;
   Place cores{0, all - std::min(reserved, all - n)};
   int first = first_id;
   int end = first_id + n;
@@ -189,9 +194,9 @@ Seat Machine::seat(const Place& place) const {
 void Machine::bind_thread(const Place& place) const {
   const Bitmap numbers = make_bitmap();
   hwloc_bitmap_set_range(numbers.get(), place.first, place.first + place.count - 1);
-  if (place.first < 0 || place.count < 1 || place.first + place.count > cores()) {
+  if (place.first < 0 || place.count < 1 || place.first + place.count > all_cores()) {
     throw std::runtime_error("cannot bind to " + list(numbers.get()) + ": this process may use only " +
-                             std::to_string(cores()) + " of the machine's cores");
+                             std::to_string(all_cores()) + " of the machine's cores");
   }
   const Bitmap processors = processors_of(topology_.get(), place);
   if (hwloc_set_cpubind(topology_.get(), processors.get(), HWLOC_CPUBIND_THREAD) != 0) {

@@ -32,7 +32,8 @@ struct Binding {
 
 class Machine {
  public:
-  // This machine: what the cgroup and the affinity of the calling process leave of it.
+  // This machine: what the cgroup and the affinity of the calling process leave of it. A quota of processors' time
+  // lessens the counts, but not the cores to which a thread may be bound.
   static Machine here();
   // A machine as hwloc describes synthetic ones, e.g. "numa:2 l3:1 core:4 pu:2".
   static Machine synthetic(const std::string& description);
@@ -64,6 +65,8 @@ class Machine {
  private:
   explicit Machine(hwloc_topology* topology);
   static Machine load_here();  // not restricted to the affinity
+  int limited(int count) const;
+  int all_cores() const;  // that threads may be bound to
   int gap(int core) const;
   int cut(const Place& cores, int left, int right) const;
 
@@ -71,6 +74,7 @@ class Machine {
     void operator()(hwloc_topology* topology) const;
   };
   std::unique_ptr<hwloc_topology, Unload> topology_;
+  int limit_ = 0;  // processors whose time the control groups leave; 0: all
 };
 
 }  // namespace mars::topology

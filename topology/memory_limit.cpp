@@ -6,8 +6,9 @@
 #include <array>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 #include <string>
+
+#include "topology/control_groups.h"
 
 namespace mars::topology {
 namespace {
@@ -27,32 +28,11 @@ std::uint64_t read_limit(const fs::path& file) {
   return bytes;
 }
 
-// The least limit of a group and all above it. In a container the group's path may be the machine's, and only
-// the mount itself be there.
-std::uint64_t least_up(const fs::path& mount, fs::path group, const char* file) {
-  std::uint64_t least = read_limit(mount / file);
-  for (; group.has_relative_path(); group = group.parent_path())
-    least = lesser(least, read_limit(mount / group.relative_path() / file));
-  return least;
-}
-
-bool has_word(const std::string& list, const std::string& word) {
-  return ("," + list + ",").find("," + word + ",") != std::string::npos;
-}
-
-// Lines of /proc/self/cgroup are number:controllers:path; version 2 has no controllers.
+// Version 2 and version 1 name the file differently.
 std::uint64_t group_limit(const fs::path& root) {
-  const fs::path groups = root / "sys/fs/cgroup";
-  std::ifstream lines(root / "proc/self/cgroup");
   std::uint64_t least = 0;
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream parts(line);
-    std::string number, controllers, path;
-    std::getline(std::getline(std::getline(parts, number, ':'), controllers, ':'), path);
-    if (controllers.empty()) least = lesser(least, least_up(groups, path, "memory.max"));
-    if (has_word(controllers, "memory"))
-      least = lesser(least, least_up(groups / "memory", path, "memory.limit_in_bytes"));
-  }
+  for (const fs::path& group : control_groups("memory", root))
+    least = lesser(least, lesser(read_limit(group / "memory.max"), read_limit(group / "memory.limit_in_bytes")));
   return least;
 }
 

@@ -1,7 +1,7 @@
 # Spack's recipe for MARS, for Spack 0.23 or newer (docs/installing.md says what was tried). In a clone of MARS:
 #   spack repo create ~/mars-spack mars-site && mkdir -p ~/mars-spack/packages/mars
 #   cp cluster/spack/package.py ~/mars-spack/packages/mars/ && spack repo add ~/mars-spack
-#   spack dev-build mars@main ^openmpi schedulers=slurm
+#   spack dev-build mars@0.2.0 ^openmpi schedulers=slurm
 from spack.package import *
 
 try:  # since Spack 1.0 build systems are in the repository of packages
@@ -16,10 +16,14 @@ class Mars(CMakePackage):
     license("MIT")
 
     # Built from this clone; there is nothing to download.
-    version("main")
+    version("0.2.0")
+
+    requires("target=x86_64:", msg="MARS is for x86-64 processors")
 
     variant("mpi", default=True, description="Nodes as MPI processes; without it, as threads")
     variant("videos", default=True, description="Videos, by the program ffmpeg")
+    variant("exr", default=True, description="EXR files, by OpenEXR")
+    variant("ocio", default=False, description="Views of an OpenColorIO config")
     variant("studio", default=True, description="mars studio, a page in a browser")
     variant("import", default=True, description="mars import of OBJ, STL and glTF files, by Assimp")
     variant("window", default=False, description="Windows on a display, by SDL")
@@ -32,7 +36,8 @@ class Mars(CMakePackage):
     depends_on("mpi@3:", when="+mpi")
     depends_on("hwloc@2:")
     depends_on("libpng")
-    depends_on("openexr@3.1.3:")
+    depends_on("openexr@3.1.3:", when="+exr")
+    depends_on("opencolorio@2.1:", when="+ocio")
     depends_on("zlib-api")
     depends_on("highway")
     depends_on("xxhash")
@@ -51,7 +56,7 @@ class Mars(CMakePackage):
     generator("ninja")
 
     def cmake_args(self):
-        parts = ["mpi", "studio", "import", "window"]
+        parts = ["mpi", "exr", "ocio", "studio", "import", "window"]
         return [self.define_from_variant("MARS_" + part.upper(), part) for part in parts] + [
             self.define("BUILD_TESTING", False)
         ]

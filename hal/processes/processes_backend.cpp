@@ -13,6 +13,7 @@
 
 #include "hal/failure/failure.h"
 #include "hal/messages/memory_file.h"
+#include "topology/processor_limit.h"
 
 namespace mars::processes {
 namespace {
@@ -27,13 +28,6 @@ constexpr int kLooksATurn = 32;
 // A caller that lets that much time pass has nothing to do before a message comes.
 constexpr std::chrono::microseconds kPatience{5000};
 
-int processors() {
-  cpu_set_t mine;
-  CPU_ZERO(&mine);
-  sched_getaffinity(0, sizeof mine, &mine);
-  return CPU_COUNT(&mine);
-}
-
 std::size_t whole_shared_pages(std::size_t bytes) { return (bytes + kSharedPage - 1) / kSharedPage * kSharedPage; }
 
 }  // namespace
@@ -44,7 +38,7 @@ ProcessesBackend::ProcessesBackend(const Segment& segment, int index)
       slot_(segment.slot(index)),
       ended_before_(slot_.ended),
       heap_(segment, index),
-      oversubscribed_(segment.nodes() > processors()),
+      oversubscribed_(segment.nodes() > topology::usable_processors()),
       next_shared_(segment.shared_memory()) {
   slot_.waiting = Waiting::no;  // as the process before this one may have been
 }

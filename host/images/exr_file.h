@@ -16,6 +16,9 @@
 
 namespace mars::images {
 
+// Throws Failure where MARS was built without OpenEXR, as all functions for EXR files do then.
+void check_exr_is_built();
+
 // The note of an EXR file that begins with these bytes; none where they hold no whole one.
 std::optional<std::string> note_in_exr(std::span<const std::byte> start);
 

@@ -2,6 +2,7 @@
 #include "hal/mpi/start.h"
 #include "host/child/standard_streams.h"
 #include "host/programs/prediction.h"
+#include "host/shell/launch/session_folders.h"
 #include "host/shell/options/render_options.h"
 
 int main(int argc, char** argv) {
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
           options::read_render_options(options::Program::host, "mars-host", kPurpose, options, argc, argv)) {
     return *code;
   }
+  launch::clean_machine_as_rank();
   return mpi::run_mpi(argc, argv, mpi::Role::host, [&](int, char**) {
     programs::render_here(options, "mpi");
     return 0;

@@ -4,6 +4,7 @@
 #include "host/child/standard_streams.h"
 #include "host/programs/prediction.h"
 #include "host/programs/node_job.h"
+#include "host/shell/launch/session_folders.h"
 #include "host/shell/options/render_options.h"
 
 int main(int argc, char** argv) {
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
           options::read_render_options(options::Program::ranks, "mars-ranks", kPurpose, options, argc, argv)) {
     return *code;
   }
+  launch::clean_machine_as_rank();
   return mpi::run_mpi(argc, argv, mpi::Role::by_rank, [&](int, char**) {
     if (mynode() == myhost())
       programs::render_here(options, "mpi");

@@ -4,14 +4,14 @@
 #include <deque>
 #include <future>
 #include <span>
-#include <thread>
 
 #include "hal/failure/failure.h"
+#include "topology/processor_limit.h"
 
 namespace mars::videos {
 namespace {
 
-constexpr unsigned kMostReaders = 8;
+constexpr int kMostReaders = 8;
 
 std::string size_text(images::PictureSize size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
@@ -72,7 +72,7 @@ std::vector<std::string> input_words(const Form& form, const Source& source) {
 
 void feed(Ffmpeg& ffmpeg, const Form& form, const Source& source, Span span, const std::function<void()>& fed) {
   const images::PictureSize size = coded_size(form, source.size);
-  const std::size_t ahead = source.any_thread ? std::clamp(std::thread::hardware_concurrency(), 1u, kMostReaders) : 1;
+  const std::size_t ahead = source.any_thread ? std::min(topology::usable_processors(), kMostReaders) : 1;
   const auto policy = source.any_thread ? std::launch::async : std::launch::deferred;
   std::deque<std::future<Picture>> read;
   std::size_t next = span.first;

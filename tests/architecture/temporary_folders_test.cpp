@@ -27,6 +27,8 @@ const std::map<std::string, std::string> kMayUseThem = {
     {"tests/programs/display.py", "removes what a killed X server leaves where all of them have their sockets"},
     {"tests/programs/storage_test.py", "makes its temporary folders there, for mounts"},
     {"tests/cluster/virtual_cluster.py", "each host of a virtual cluster has a /tmp of its own"},
+    {"tests/programs/local_jobs_test.py", "an epilog cleans it, and the test removes what stays"},
+    {"tests/cluster/losses_test.py", "each host of a virtual cluster has a /tmp of its own"},
     {"tests/cluster/rendering_test.py", "each host of a virtual cluster has a /tmp of its own"},
     {"tests/bench/faults/cluster.py", "each host of a virtual cluster has a /tmp of its own"},
     {"tests/bench/soak/soak_test.py", "only names a file"},

@@ -84,6 +84,18 @@ class Losses(ClusterTest):
         self.assertGoesOn(r"machine n3: node 2 was killed by signal 9 .*\n"
                           r"starting again \(1 of 5\) with 7 nodes on 4 machines; ")
 
+    def test_what_a_machine_kept_for_killed_processes_goes_with_the_next_job(self):
+        kept = lambda: testbed("exec", "n3", "find", "/tmp", "/dev/shm", "(", "-name", "jf.*", "-o", "-name",
+                               "vader_segment.*", ")").stdout.split()
+        self.start(ENDLESS, "--restarts", 0)
+        testbed("exec", "n3", "kill", "-9", *self.processes("n3", *OUR_PROGRAMS))
+        self.process.communicate(timeout=SILENCE)
+        left = kept()
+        self.assertEqual({path.split("/")[-1].split(".")[0] for path in left}, {"jf", "vader_segment"})
+        film = self.write("short.json", spinning_teapot(2, [160, 90]))
+        self.on("n1", "mars", "render", film, "-o", "short", "--hostfile", self.hostfile)
+        self.assertEqual([path for path in kept() if path in left], [])
+
     def test_a_stopped_film(self):
         self.start(ENDLESS)
         testbed("exec", "n1", "pkill", "-TERM", "-x", "mars")

@@ -34,9 +34,17 @@ words() {
 """
 
 
+def what_is_built():
+    """Where installing might write: file to time. Other tests write elsewhere in the build folder."""
+    made = BUILD / "cluster/install"
+    return {path: path.lstat().st_mtime_ns for path in [made, *made.rglob("*"), *BUILD.glob("*install*")]}
+
+
 def setUpModule():
     work = pathlib.Path(unittest.enterModuleContext(tempfile.TemporaryDirectory(prefix="mars-test-")))
+    before = what_is_built()
     harness.install(work / "first", "--strip")
+    Installation.built = before, what_is_built()
     Installation.prefix = (work / "first").rename(work / "moved here")
     harness.PROGRAMS = Installation.prefix / "bin"
 
@@ -144,6 +152,31 @@ class Installed(SideBySide, Installation):
             parts += [path.relative_to(self.folder / part) for path in (self.folder / part).rglob("*")
                       if not path.is_dir()]
         self.assertEqual(sorted(parts), whole)
+
+    def test_writes_nothing_into_the_build_folder(self):
+        """So it may be another user's."""
+        before, after = self.built
+        self.assertEqual(before, after)
+        self.assertIn(BUILD / "cmake_install.cmake", before)
+
+    @needs("readelf")
+    def test_nx_alone_needs_nothing_of_pictures(self):
+        harness.install(self.folder / "nx", "--component", "mars-nx")
+        needed = set()
+        for file in [self.folder / "nx/bin/mars-nx", *(self.folder / "nx/lib").rglob("libmars-nx*.so.?")]:
+            dynamic = subprocess.run(["readelf", "-dW", file], check=True, capture_output=True, text=True).stdout
+            needed.update(re.findall(r"\(NEEDED\) .*\[(?:lib)?([a-z-]+)", dynamic))
+        self.assertLessEqual({"mars-nx", "hwloc", "stdc"}, needed)
+        self.assertLessEqual(needed, {"mars-nx", "mpi", "mpich", "hwloc", "xxhash", "stdc", "gcc", "m", "c", "ld-linux-x"} |
+                             ({"asan", "ubsan", "tsan"} if harness.SANITIZED else set()))
+
+    def test_samples_for_sites(self):
+        samples = self.prefix / "share/mars"
+        for name in ["hostfile", "modulefiles/mars", "slurm/render.sbatch", "slurm/epilog.sh", "farms/opencue.py",
+                     "farms/deadline.job", "farms/mars-render.js"]:
+            self.assertTrue((samples / name).is_file(), name)
+        for name in ["slurm/epilog.sh", "farms/opencue.py"]:
+            self.assertTrue(os.access(samples / name, os.X_OK), name)
 
     def test_schemas_and_documents(self):
         for name in ["mars/schema/film.schema.json", "mars/schema/model.schema.json", "doc/mars/copyright",

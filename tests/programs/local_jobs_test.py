@@ -6,10 +6,11 @@ import os
 import pathlib
 import re
 import socket
+import subprocess
 import unittest
 
-from harness import (ENVIRONMENT, MPICH, SECONDS, ProgramTest, SideBySide, endless_film, family, kill, living,
-                     main, needs_mpi, spinning_teapot, wait_until)
+from harness import (ENVIRONMENT, MPICH, SECONDS, SOURCES, ProgramTest, SideBySide, endless_film, family, kill, living,
+                     main, needs, needs_mpi, spinning_teapot, wait_until)
 
 SHARED = pathlib.Path("/dev/shm")
 FOLDER_SETTINGS = ["OMPI_MCA_orte_tmpdir_base", "OMPI_MCA_btl_vader_backing_directory"]
@@ -139,6 +140,29 @@ class LocalJobs(SideBySide, ProgramTest):
         wait_until(lambda: not self.processes(), SECONDS, "its processes stay")
         done = self.run_program("mars-nx", "run", "--over", "mpi", "--nodes", 2, program, "--", ":")
         self.assertClear(done.stderr, "mpirun takes : for the end of a program's arguments")
+
+    @needs("pgrep")
+    @unittest.skipIf(os.geteuid() != 0, "needs root, as Slurm has it")
+    def test_the_epilog_removes_what_a_user_left_after_the_last_process(self):
+        user = 2_000_000_000 + os.getpid()  # nobody's
+        left = [SHARED / f"vader_segment.here.{user}.1.0", SHARED / f"mars.here.{user % 10 ** 6:06}",
+                pathlib.Path("/tmp", f"ompi.here.{user}")]
+        kept = [SHARED / f"other.{user}", SHARED / f"vader_segment.here.root.{user}.0"]
+        for path in left + kept:
+            path.touch()
+            self.addCleanup(path.unlink, missing_ok=True)
+        for path in left + kept[:1]:
+            os.chown(path, user, user)
+        epilog = lambda: self.succeed(SOURCES / "cluster/slurm/epilog.sh", env=dict(ENVIRONMENT, SLURM_JOB_UID=str(user)))
+        process = subprocess.Popen(["sleep", "1000"], user=user, cwd="/")
+        self.addCleanup(process.wait)
+        self.addCleanup(process.kill)
+        epilog()
+        self.assertEqual([path for path in left if not path.exists()], [])
+        process.kill()
+        process.wait()
+        epilog()
+        self.assertEqual([path for path in left + kept if path.exists()], kept)
 
     def test_an_empty_tmpdir_is_none(self):
         for backend in self.backends():

@@ -11,7 +11,7 @@ from cases import main  # noqa: E402
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # Where it is written, and what stands before it; the first of each file counts.
 PLACES = {"CHANGELOG.md": r"^## ", "cluster/install/changelog": r"^mars \(", "cluster/modulefiles/mars": r"mars/",
-          "docs/installing.md": r"mars_", "docs/doctor.md": r"^MARS "}
+          "cluster/spack/package.py": r'version\("', "docs/installing.md": r"mars_", "docs/doctor.md": r"^MARS "}
 
 
 def version_in(file, before):

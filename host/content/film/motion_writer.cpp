@@ -14,6 +14,7 @@
 #include "host/content/document/text.h"
 #include "node/shape/dual_quaternion.h"
 #include "topology/memory_limit.h"
+#include "topology/processor_limit.h"
 
 namespace mars::film {
 namespace {
@@ -233,7 +234,7 @@ class MotionWriter {
     };
     const std::size_t useful = std::min(shares_.size(), most_matrices_ / kWorthAThread);
     std::vector<std::jthread> helpers;
-    for (std::size_t i = 1; i < std::min<std::size_t>(useful, std::thread::hardware_concurrency()); ++i)
+    for (std::size_t i = 1; i < std::min<std::size_t>(useful, topology::usable_processors()); ++i)
       helpers.emplace_back(work);
     work();
     helpers.clear();

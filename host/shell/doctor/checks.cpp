@@ -105,7 +105,8 @@ Finding check_processors(const Facts& facts) {
   if (facts.processors < facts.machine_processors) {
     return {facts.slurm ? State::good : State::note, "processors",
             found + "; the machine has " + std::to_string(facts.machine_processors) + " processors",
-            facts.slurm ? "" : "MARS uses what it is given: see taskset -p $$, or the container's --cpuset-cpus"};
+            facts.slurm ? ""
+                        : "MARS uses what it is given: see taskset -p $$, or the container's --cpuset-cpus and --cpus"};
   }
   if (facts.simd == "sse2") return {State::note, "processors", found + " only: renders, but slower than with AVX2", ""};
   return {State::good, "processors", found, ""};

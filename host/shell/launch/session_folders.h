@@ -17,6 +17,10 @@
 
 namespace mars::launch {
 
+// For a rank of Open MPI before it joins its job. The first of a machine removes there what this user's jobs left whose
+// processes were killed: folders of sessions and shared memory that no process holds.
+void clean_machine_as_rank();
+
 // Removes what a job on several machines, whose mpirun has ended here, left on this machine if mpirun was killed: its
 // folder and the memory that its ranks shared.
 void remove_session_of(pid_t mpirun);

@@ -15,6 +15,7 @@
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
 #include "host/content/document/whole_file.h"
+#include "host/images/exr_file.h"
 
 namespace mars::options {
 namespace {
@@ -135,6 +136,7 @@ void check_compression(const RenderOptions& options, bool is_given) {
 }
 
 void check_pictures(const RenderOptions& options) {
+  if (options.format == images::PictureFormat::exr) images::check_exr_is_built();
   check_view(options);
   check_layers(options);
 }

@@ -481,8 +481,6 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores) {
                 "--nodes", "use up to " + std::to_string(most) + ", or add --force");
 }
 
-std::string word_of_file(const std::string& name) { return name.starts_with('-') || name == ":" ? "./" + name : name; }
-
 bool measures(const RenderOptions& options) { return !options.report.empty() || !options.trace.empty(); }
 
 void add_render_options(cli::Command app, RenderOptions& options, Program program) {

@@ -31,7 +31,9 @@ void check_nodes(const RenderOptions& options, std::uint32_t cores);
 
 // A file's name as a word of a command line: one that begins with a dash would be taken for an option, and mpirun takes
 // a colon for the end of a program's arguments.
-std::string word_of_file(const std::string& name);
+inline std::string word_of_file(const std::string& name) {
+  return name.starts_with('-') || name == ":" ? "./" + name : name;
+}
 
 // Whether a rendering is to be measured: then it renders.
 bool measures(const RenderOptions& options);

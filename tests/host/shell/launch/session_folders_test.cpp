@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/file.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <array>
@@ -24,6 +25,9 @@ namespace fs = std::filesystem;
 constexpr const char* kTemporary = "OMPI_MCA_orte_tmpdir_base";
 constexpr std::array kShared = {"OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_osc_sm_backing_directory"};
 
+constexpr const char* kLocalRank = "OMPI_COMM_WORLD_LOCAL_RANK";
+constexpr const char* kSession = "OMPI_MCA_orte_jobfam_session_dir";
+
 child::Command open_mpi() { return {{}, {"mpirun"}, child::OpenMpi::on_this_machine}; }
 
 std::optional<fs::path> folder_for(const char* setting, const child::Command& command) {
@@ -39,7 +43,27 @@ class SessionFoldersTest : public testing::Test {
     setenv("TMPDIR", base_.path().c_str(), 1);
   }
   ~SessionFoldersTest() override {
-    for (const char* name : {"TMPDIR", "TMP"}) unsetenv(name);
+    for (const char* name : {"TMPDIR", "TMP", kLocalRank, kSession}) unsetenv(name);
+  }
+
+  static void begin_as_rank(const char* number_here, const fs::path& session) {
+    setenv(kLocalRank, number_here, 1);
+    setenv(kSession, session.c_str(), 1);
+    clean_machine_as_rank();
+  }
+
+  // As Open MPI names it for a user of a machine.
+  static std::string machine_and_user(const std::string& host = "") {
+    std::array<char, 256> here{};
+    gethostname(here.data(), here.size() - 1);
+    const std::string name = host.empty() ? here.data() : host;
+    return name.substr(0, name.find('.')) + "." + std::to_string(geteuid());
+  }
+
+  static fs::path write(const fs::path& file) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << "shared";
+    return file;
   }
 
   bool base_is_empty() const { return fs::is_empty(base_.path()); }
@@ -129,6 +153,45 @@ TEST_F(SessionFoldersTest, OfALivingJobStayAndOfAnEndedOneGo) {
   { const SessionFolders next(second); }
   EXPECT_TRUE(fs::exists(lives));
   EXPECT_FALSE(fs::exists(ended));
+}
+
+TEST_F(SessionFoldersTest, WhatWasKilledLeavesNothingToTheNextJobsFirstRank) {
+  const fs::path sessions = base_.path() / ("ompi." + machine_and_user());
+  const fs::path dead = write(sessions / "jf.7/hwloc.sm"), ours = write(sessions / "jf.70/hwloc.sm"),
+                 mapped = write(sessions / "pid.8/pmix_dstor_ds21_8/smseg-0"), begun = sessions / "jf.9/0",
+                 others = write(base_.path() / ("ompi." + machine_and_user("elsewhere")) / "jf.7/hwloc.sm");
+  fs::create_directories(begun);
+  fs::create_directory_symlink(others.parent_path(), sessions / "jf.10");
+  const int held = open(ours.c_str(), O_RDONLY), brief = open(mapped.c_str(), O_RDONLY);
+  void* memory = mmap(nullptr, 6, PROT_READ, MAP_SHARED, brief, 0);
+  close(brief);
+  begin_as_rank("1", ours.parent_path());
+  EXPECT_TRUE(fs::exists(dead)) << "another rank removes it";
+  begin_as_rank("0", dead.parent_path());
+  EXPECT_TRUE(fs::exists(dead)) << "who does not see its own job's files sees nobody's";
+  begin_as_rank("0", ours.parent_path());
+  EXPECT_FALSE(fs::exists(dead.parent_path()));
+  for (const fs::path& living : {ours, mapped, begun, others}) EXPECT_TRUE(fs::exists(living)) << living;
+  munmap(memory, 6);
+  begin_as_rank("0", ours.parent_path());
+  EXPECT_FALSE(fs::exists(mapped.parent_path().parent_path()));
+  for (const fs::path& living : {ours, begun, others}) EXPECT_TRUE(fs::exists(living)) << living;
+  close(held);
+}
+
+TEST_F(SessionFoldersTest, SharedMemoryGoesUnlessAProcessHoldsIt) {
+  const std::string job = std::to_string(std::random_device()());  // no other test's, which would be in the same folder
+  const auto segment = [&](const std::string& owner, const char* rank) {
+    return write("/dev/shm/vader_segment." + owner + "." + job + "." + rank);
+  };
+  const fs::path dead = segment(machine_and_user(), "1"), others = segment(machine_and_user("elsewhere"), "1");
+  const fs::path living = segment(machine_and_user(), "10");
+  const fs::path session = write(base_.path() / ("ompi." + machine_and_user()) / "pid.5/hwloc.sm");
+  const int held = open(living.c_str(), O_RDONLY), ours = open(session.c_str(), O_RDONLY);
+  begin_as_rank("0", session.parent_path());
+  EXPECT_FALSE(fs::exists(dead));
+  for (const int file : {held, ours}) close(file);
+  for (const fs::path& stays : {living, others}) EXPECT_TRUE(fs::remove(stays)) << stays;
 }
 
 }  // namespace

@@ -1,0 +1,25 @@
+#include "hal/failure/failure.h"
+#include "host/images/exr_bands.h"
+#include "host/images/exr_file.h"
+
+namespace mars::images {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file) {
+  throw Failure("this MARS was built without OpenEXR", file,
+                "install libopenexr-dev (./bootstrap does) and build again, or use PNG files");
+}
+
+}  // namespace
+
+void check_exr_is_built() { refuse(""); }
+
+std::optional<std::string> note_in_exr(std::span<const std::byte>) { refuse(""); }
+
+Image decode_exr(std::span<const std::byte>, const std::string& name, wire::PixelFormat) { refuse(name); }
+
+EncodedBand encode_exr_band(const PictureBands&, const Lines&, std::span<const std::uint32_t>) { refuse(""); }
+
+PictureEnds exr_ends(const PictureBands&, std::span<const BandPart>, const FileFacts&) { refuse(""); }
+
+}  // namespace mars::images
