@@ -27,6 +27,7 @@
 #include "host/shell/launch/film_check.h"
 #include "host/shell/launch/film_panorama.h"
 #include "host/shell/launch/film_videos.h"
+#include "host/shell/launch/job.h"
 #include "host/shell/launch/rendering_window.h"
 #include "host/shell/launch/shown_job.h"
 #include "host/shell/launch/starting.h"
