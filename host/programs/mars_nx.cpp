@@ -107,8 +107,8 @@ void add_run(cli::Command app, nx_jobs::NxRun& options, int& code) {
   command
       .add_read(
           "--over", [&options](const std::string& word) { options.over = over_of(word); },
-          "Processes over shared memory on this machine, or mpi; default: mpi with a hostfile or in a Slurm job, "
-          "otherwise processes. Example: --over mpi")
+          "Processes over shared memory on this machine, or mpi; default: mpi with a hostfile, in a Slurm job or "
+          "in a batch job of several machines, otherwise processes. Example: --over mpi")
       .type("auto|processes|mpi");
   command.add("--hostfile", options.hostfile, "Open MPI's file of the machines to use. Example: --hostfile hosts")
       .type("FILE");
