@@ -98,7 +98,7 @@ start_host() {
     mkdir -p /run/sshd /run/munge"
 }
 
-# What a host sends by TCP goes where nobody listens. By rules of routing, for which no other package is needed.
+# All that a host sends by TCP goes where nobody listens. Rules of routing do that without another package.
 firewall() {
   on "$1" sh -euc "
     ip link add nowhere type veth peer name nobody

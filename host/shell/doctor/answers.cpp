@@ -19,7 +19,7 @@ constexpr std::size_t kShownWords = 300;  // bytes of what is not understood
 
 double seconds(SystemTime time) { return std::chrono::duration<double>(time.time_since_epoch()).count(); }
 
-// What ssh, srun, shells and loaders say of machines on which MARS cannot be started. Nearest to the cause first.
+// Ssh, srun, shells and loaders say this of machines on which MARS cannot be started. Nearest to the cause first.
 struct Silence {
   const char* words;
   const char* found;

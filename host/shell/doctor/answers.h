@@ -1,4 +1,4 @@
-// What machines answer to the doctor that asks them, and what it comes to: findings that name machines.
+// The answers of machines to the doctor that asks them, and what they come to: findings that name machines.
 //
 // A machine answers with its findings and its door. Then it is given all doors, and answers at once with its clock,
 // then with the doors that it missed, and that it has met all others. An answer is a line.

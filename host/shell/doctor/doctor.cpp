@@ -36,7 +36,7 @@ std::string names_of(const std::vector<MachineFindings>& machines) {
   return host_list(names);
 }
 
-// What must be the same on all machines, and what is of the job.
+// It must be the same on all machines; it is about the job as a whole.
 bool is_shared(const Finding& finding) { return finding.about == "MARS" || finding.about == "MPI"; }
 bool is_of_job(const Finding& finding) { return finding.about == "Slurm" || finding.about == "srun"; }
 
@@ -63,7 +63,8 @@ std::string advice_about(const Cluster& cluster) {
 // About this machine, for the doctor of another one.
 MachineFindings findings_for_another(const DoctorOptions& options, const std::filesystem::path& self) {
   constexpr std::size_t kShownDigits = 8;
-  const Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
+  Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
+  if (facts.slurm) facts.slurm->tasks = 0;  // they are those of this visit
   MachineFindings own{options.own_name, check_machine(facts)};
   std::erase_if(own.findings, is_of_job);
   if (facts.programs.node) {
@@ -118,7 +119,7 @@ bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self)
   if (cluster) {
     std::erase_if(findings, std::not_fn(is_of_job));
     for (const Finding& each : all_of(*cluster)) findings.push_back(each);
-    names = names_of(cluster->machines);
+    if (!cluster->machines.empty()) names = names_of(cluster->machines);
   }
   if (trial) findings.push_back(check_start(*trial));
   std::cout << "MARS " << options.version << " on " << names << "\n" << text_of(findings);

@@ -33,7 +33,7 @@ class Door {
   std::uint16_t port_ = 0;
 };
 
-// Of this machine's networks; where it has none, 127.0.0.1.
+// This machine's, on its networks; where it has none, 127.0.0.1.
 std::vector<std::string> own_addresses();
 
 // A machine that was reached at none of its addresses.

@@ -11,7 +11,7 @@
 
 namespace mars::doctor {
 
-// What asks one machine, or several that read the same words.
+// A command asks one machine, or several that read the same words.
 struct Call {
   std::vector<std::string> hosts;
   child::Command command;

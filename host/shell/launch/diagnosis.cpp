@@ -61,11 +61,15 @@ Failure unknown(const Remains& remains) {
   return Failure(program + how, "", words.empty() ? "it gave no reason" : "its last words:\n" + words);
 }
 
-// The machine of which a starter speaks: "Node: n3", "Local host: n3", "[proxy:0:1@n3] ..."; "": it names none.
+// The machine of which a starter speaks: "Node: n3", "ssh: connect to host n3 port 22: ...", "[proxy:0:1@n3] ..."; "":
+// it names none.
 std::string machine_in(const std::string& words) {
-  for (const char* label : {"Node: ", "Local host: "}) {
+  for (const char* label : {"Node: ", "Local host: ", "ssh: connect to host ", "ssh: Could not resolve hostname "}) {
     TextReader line(words);
-    if (line.find(label)) return line.word().value_or("");
+    if (!line.find(label)) continue;
+    line.skip_space();
+    const std::string name = line.word().value_or("");
+    return name.substr(0, name.find(':'));
   }
   TextReader line(words);
   if (!line.find("[proxy:") || !line.find("@")) return "";
@@ -100,7 +104,7 @@ Diagnosis cause(const Remains& remains, const std::string& words, const std::opt
   if (!remains.ended_for.empty()) return {advised(Failure(remains.ended_for, "", "")), {}};
   if (const auto own = own_words(remains.last_words)) return {advised(*own), {}};
   if (loss && loss->machine_lost) return {loss->failure, {}, loss->machine, true};
-  if (loss && loss->in_words) return {advised(loss->failure), loss->node, loss->machine};
+  if (loss && loss->in_words) return {advised(with_machine(loss->failure, words)), loss->node, loss->machine};
   if (const auto known = meaning_of(words, remains.machines)) {
     const Failure found = with_machine(*known, words);
     const bool unnamed = found.where.empty() && found.problem.find("another machine") != std::string::npos;

@@ -12,7 +12,7 @@
 
 namespace mars::launch {
 
-// What helps machines that cannot reach each other.
+// The remedy for machines that cannot reach each other.
 inline constexpr const char* kOpenPorts =
     "open the ports between the machines, or name their network: export OMPI_MCA_btl_tcp_if_include=eth0 "
     "OMPI_MCA_oob_tcp_if_include=eth0";

@@ -61,6 +61,12 @@ TEST(Diagnosis, NamesTheMachineThatTheWordsName) {
   EXPECT_TRUE(message(failed_with({"[proxy:0:1@n3] HYDU_create_process (launch.c:74): execvp error on file /opt/x"}))
                   .starts_with("machine n3: does not have MARS's programs ("));
   EXPECT_TRUE(message(failed_with({"execvp error on file /opt/x"})).starts_with("a machine does not have"));
+  Remains unknown = failed_with({"ssh: Could not resolve hostname n9: Name or service not known",
+                                 "ORTE was unable to reliably start one or more daemons."});
+  for (const int code : {1, 255}) {
+    unknown.ending.code = code;
+    EXPECT_TRUE(message(unknown).starts_with("machine n9: Open MPI cannot start on another machine")) << code;
+  }
 }
 
 // Which machine it was, the doctor says.
