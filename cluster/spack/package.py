@@ -1,7 +1,7 @@
 # Spack's recipe for MARS, for Spack 0.23 or newer (docs/installing.md says what was tried). In a clone of MARS:
 #   spack repo create ~/mars-spack mars-site && mkdir -p ~/mars-spack/packages/mars
 #   cp cluster/spack/package.py ~/mars-spack/packages/mars/ && spack repo add ~/mars-spack
-#   spack dev-build mars@0.2.0 ^openmpi schedulers=slurm
+#   spack dev-build mars@0.3.0 ^openmpi schedulers=slurm
 from spack.package import *
 
 try:  # since Spack 1.0 build systems are in the repository of packages
@@ -16,7 +16,7 @@ class Mars(CMakePackage):
     license("MIT")
 
     # Built from this clone; there is nothing to download.
-    version("0.2.0")
+    version("0.3.0")
 
     requires("target=x86_64:", msg="MARS is for x86-64 processors")
 

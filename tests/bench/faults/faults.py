@@ -4,7 +4,7 @@ a virtual cluster (cluster/testbed, as root), and measures what MARS does: secon
 until it is reported and until nodes draw again, frames lost and drawn twice.
 
 Each result is written to DIR/results.json at once, and replaces an older one of the
-same fault there. DIR/table.md is the table of docs/reliability.md. The exit code is
+same fault there. DIR/table.md is the table of docs/decisions/faults.md. The exit code is
 1 if a frame was lost, pixels are wrong, or something was left running."""
 import argparse
 import json

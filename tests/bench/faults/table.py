@@ -1,4 +1,4 @@
-"""Results as a table of docs/reliability.md."""
+"""Results as a table of docs/decisions/faults.md."""
 
 COLUMNS = ("fault", "made by", "reported after", "drawing again after", "frames lost", "drawn twice")
 
