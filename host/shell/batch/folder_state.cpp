@@ -20,6 +20,7 @@ constexpr std::int64_t kLate = 15;   // seconds; a status is written every 2
 constexpr std::int64_t kLost = 60;   // seconds; then its claim ends, too
 constexpr double kNamedSilence = 5;  // seconds
 constexpr double kSlow = 1.25;       // times as long as usual
+constexpr double kLeastHours = 0.1;  // below it is a number of seconds
 
 std::vector<FolderState::Run> runs_in(const fs::path& folder) {
   std::vector<FolderState::Run> runs;
@@ -123,7 +124,9 @@ FolderState look_at(const fs::path& folder) {
 std::string text_of(const sinks::Usage& used) {
   if (used == sinks::Usage()) return "";
   const double megabytes = static_cast<double>(used.bytes) / 1e6;
-  return document::formatted("%.2f processor hours, ", used.processor_hours()) +
+  const double hours = used.processor_hours();
+  return (hours < kLeastHours ? document::formatted("%.1f processor seconds, ", used.processor_seconds)
+                              : document::formatted("%.2f processor hours, ", hours)) +
          (megabytes < 1000 ? document::formatted("%.1f MB", megabytes)
                            : document::formatted("%.1f GB", megabytes / 1000)) +
          " written, " + document::counted(used.restarts, "restart");

@@ -41,7 +41,7 @@ struct FolderState {
 // Throws Failure where there is neither a manifest nor a job, or one of their files is damaged.
 FolderState look_at(const std::filesystem::path& folder);
 
-// "12.34 processor hours, 1.2 GB written, 1 restart"; "" where nothing was used.
+// "12.34 processor hours, 1.2 GB written, 1 restart", of short runs seconds; "" where nothing was used.
 std::string text_of(const sinks::Usage& used);
 
 // A line for the folder, each job and each run; with `machines` also one for what was used, and below each run a line

@@ -91,6 +91,7 @@ TEST(FolderState, IsAlsoThereForPrograms) {
   EXPECT_EQ(json["runs"][0]["seconds_left"], 61);
   EXPECT_EQ(comment_of(some_state()), "mars: 20 of 50 frames, 1.25 processor hours, 12.3 MB written, 2 restarts\n");
   EXPECT_EQ(comment_of({}), "mars: 0 of 0 frames\n");
+  EXPECT_EQ(text_of(sinks::Usage{90, 2'500'000'000, 0}), "90.0 processor seconds, 2.5 GB written, 0 restarts");
 }
 
 TEST(FolderState, SaysForProgramsWhetherItGoesOn) {
