@@ -77,13 +77,15 @@ std::string machine_in(const std::string& words) {
   return name.substr(0, name.find(']'));
 }
 
-// "a machine does not have MARS's programs" is of that machine.
+// "a machine does not have MARS's programs" becomes "machine n3: does not have MARS's programs".
 Failure with_machine(const Failure& known, const std::string& words) {
-  constexpr std::string_view kOne = "a machine ";
+  constexpr std::string_view kOne = "a machine ", kOther = "on another machine";
   const std::string machine = known.where.empty() ? machine_in(words) : "";
   if (machine.empty()) return known;
-  return Failure(known.problem.substr(known.problem.starts_with(kOne) ? kOne.size() : 0), "machine " + machine,
-                 known.remedy);
+  std::string problem = known.problem;
+  if (problem.starts_with(kOne)) problem.erase(0, kOne.size());
+  if (problem.ends_with(kOther)) problem.replace(problem.size() - kOther.size(), kOther.size(), "there");
+  return Failure(problem, "machine " + machine, known.remedy);
 }
 
 // The reason why it did not start is likely to be seen from here, too.

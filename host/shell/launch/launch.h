@@ -3,26 +3,16 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "hal/failure/failure.h"
 #include "host/render/events/events.h"
+#include "host/shell/launch/adviser.h"
 #include "host/shell/launch/diagnosis.h"
 #include "host/shell/options/render_options.h"
 
 namespace mars::launch {
-
-// What is wrong with the surroundings for a run with these options, in lines.
-struct Adviser {
-  using Question = std::function<std::string(const options::RenderOptions& options)>;
-  Question while_it_starts;  // asked on a thread of its own while the run is waited for: starts no program
-  Question after_a_failed_start;
-  // About all machines of the run, where it has others than this one: which do not reach each other ("": all do), and
-  // on the next lines what else there is to say.
-  Question about_machines;
-};
 
 // Returns when all frames are where they belong. `self`: the running program's own file. Throws Failure where
 // the run fails or is stopped; nothing it started runs on.

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "host/shell/launch/adviser.h"
 #include "host/shell/launch/display.h"
-#include "host/shell/launch/launch.h"
 #include "host/shell/launch/remains.h"
 #include "host/shell/launch/slots.h"
 #include "host/shell/launch/starting.h"
