@@ -46,7 +46,7 @@ class Bootstrap(ProgramTest):
         self.assertIn("./bootstrap demo", self.bootstrap("--help").stdout)
 
 
-# What the script itself starts, and what stands for the rest: each notes its words. Nothing is installed, nobody is root.
+# The script starts TOOLS themselves, and stand-ins, which note their words. Nothing is installed; the user is not root.
 TOOLS = ["bash", "cut", "dirname", "env", "grep", "head", "mkdir", "paste", "sed", "sort", "c++", "ninja", "pkg-config"]
 STAND_INS = {"apt-get": "", "cmake": "echo cmake version 3.25.1", "dpkg-query": "exit 1", "id": "echo 1000", "mpicc": ""}
 REFUSES, PERMITS = "echo not in the sudoers file >&2; exit 1", '[ "$1" = -l ] || "$@"'

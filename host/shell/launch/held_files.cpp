@@ -17,7 +17,7 @@ bool is_process(const std::string& name) {
 
 }  // namespace
 
-// Of each process first what it has open: what it then takes into memory it may close.
+// Descriptors are read before maps, because a process may map a file and then close the descriptor.
 std::vector<std::string> held_files(std::initializer_list<std::string_view> parts) {
   std::vector<std::string> held;
   const auto take = [&](std::string path) {

@@ -128,7 +128,7 @@ bool has_files_of_a_helper(const fs::path& session) {
   return found;
 }
 
-// What mpirun, its helpers and ranks of this machine and user keep.
+// The files that mpirun, its helpers and ranks of this machine and user keep.
 std::vector<fs::path> sessions_in(const fs::path& base) {
   std::vector<fs::path> sessions;
   const fs::path all = base / ("ompi" + machine_part());
@@ -153,8 +153,8 @@ bool is_in(const std::string& file, const fs::path& path) {
   return (file + "/").find(names) != std::string::npos;
 }
 
-// What was killed on this machine left it. `ours`: this job's session, which shows whether we see the machine's
-// processes: a container may have its own.
+// Removes what processes that were killed on this machine left. `ours`: the session of this job. If nobody seems to hold
+// that one, we do not see the machine's processes, as in a container, and remove nothing.
 void remove_what_nobody_holds(const std::vector<fs::path>& left, const fs::path& ours) {
   if (left.empty()) return;
   const std::vector<std::string> held = held_files({"/ompi.", "/vader_segment."});
@@ -173,7 +173,7 @@ void remove_ended_folders(const fs::path& temporary) {
 
 }  // namespace
 
-// All is listed before it is asked who holds it: what begins meanwhile is not among it.
+// Remains are listed before their holders: what begins meanwhile is not among them.
 void clean_machine_as_rank() {
   const child::Environment environment = child::own_environment();
   const auto session = environment.value("OMPI_MCA_orte_jobfam_session_dir");

@@ -44,7 +44,7 @@ Failure no_frames_for_videos(const std::string& machine, const options::RenderOp
                  options.folder, "put the folder or the video where all machines see it, or start this there");
 }
 
-// What is found out while no node answers, and said when it is known.
+// Finds reasons while no node answers, and prints them as soon as they are known.
 class SlowStart {
  public:
   SlowStart(const options::RenderOptions& options, bool with_others, Display& display, const Adviser& adviser)

@@ -1,4 +1,5 @@
-// What jobs are started from. It is found once, before the first of them, because programs are started to find it.
+// The programs and surroundings that jobs are started from. They are found once, before the first job, because programs
+// are started to find them.
 #pragma once
 
 #include <filesystem>
