@@ -153,8 +153,8 @@ bool is_in(const std::string& file, const fs::path& path) {
   return (file + "/").find(names) != std::string::npos;
 }
 
-// Removes what processes that were killed on this machine left. `ours`: the session of this job. If nobody seems to hold
-// that one, we do not see the machine's processes, as in a container, and remove nothing.
+// Removes what processes that were killed on this machine left. `ours`: the session of this job. If nobody seems to
+// hold that one, we do not see the machine's processes, as in a container, and remove nothing.
 void remove_what_nobody_holds(const std::vector<fs::path>& left, const fs::path& ours) {
   if (left.empty()) return;
   const std::vector<std::string> held = held_files({"/ompi.", "/vader_segment."});
