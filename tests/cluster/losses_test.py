@@ -101,6 +101,15 @@ class Losses(ClusterTest):
         testbed("exec", "n1", "pkill", "-TERM", "-x", "mars")
         self.assertEnds("stopped by Terminated", SOON, HOSTS)
 
+    def test_a_stop_counts_all_files_that_nodes_have_written(self):
+        self.start(ENDLESS, "--write", "nodes", "--no-coherence", "--groups", 7)
+        testbed("exec", "n1", "pkill", "-TERM", "-x", "mars")
+        said = self.assertEnds("stopped by Terminated", SOON, HOSTS)
+        files = len(list((self.folder / "out").glob("frame-*.png")))
+        self.assertIn(f"after {files} of {ENDLESS} frames", said)
+        checked = self.on("n1", "mars", "verify", "out", code=1).stdout
+        self.assertIn(f"{ENDLESS - files} of {ENDLESS} frames are missing or wrong", checked)
+
     def test_a_killed_mars(self):
         self.start(ENDLESS)
         testbed("exec", "n1", "pkill", "-KILL", "-x", "mars")

@@ -107,6 +107,14 @@ class Rendering(ClusterTest):
         self.assertShown(run(), 7)
         self.assertShown(run("--nodes", 16, "--overwrite"), 16)
 
+    def test_without_mpirun_no_machine_is_left_out_silently(self):
+        render = ["env", "PATH=/without-modules", PROGRAMS / "mars", "render", self.film, "-o", "out"]
+        done = self.on("n1", *render, "--hostfile", self.hostfile, code=1)
+        self.assertClear(done.stderr, f"mpirun was not found, and {self.hostfile} names other machines")
+        done = self.on("n0", "salloc", "--quiet", "--nodes=4", *render, code=1)
+        self.assertClear(done.stderr, "mpirun was not found, and the Slurm job has 4 machines")
+        self.assertFalse((self.folder / "out").exists())
+
     def hide(self, host, file):
         """For the rest of the test, nothing of the file can be read or run on the host."""
         self.on(host, "mount", "--bind", "/dev/null", file)
