@@ -11,9 +11,9 @@ namespace {
 
 // The machines of the job as a hostfile, from the function `tasks`, which prints the machine of each task. No signal
 // comes before the time limit, so that timeout sends one.
-const std::string kByHostfile = R"(hosts=$kept/$job.hosts
-tasks | awk '!n[$1]++ {name[++k] = $1} END {for (i = 1; i <= k; ++i) print name[i] " slots=" n[name[i]]}' >"$hosts"
-film=({timeout}mars render "$@" --hostfile "$hosts")
+const std::string kByHostfile = R"(film=({timeout}mars render "$@" --hostfile "$kept/$job.hosts")
+tasks | awk '!n[$1]++ {name[++k] = $1} END {for (i = 1; i <= k; ++i) print name[i] " slots=" n[name[i]]}' \
+  >"$kept/$job.hosts"
 are_taken() { false; }  # mars render itself goes on with the machines that answer
 )";
 

@@ -107,7 +107,8 @@ TEST(BatchScript, HasTheWordsOfEachSystem) {
   expect_in(of_pbs,
             "#!/bin/bash\n#PBS -N mars\n#PBS -l select=4:ncpus=8:mpiprocs=8\n#PBS -l walltime=28800\n"
             "#PBS -q long\n#PBS -r y\n# mars submit calls qsub with: -A physics\n");
-  expect_in(of_pbs, "film=(timeout --foreground --signal=TERM 28680 mars render \"$@\" --hostfile \"$hosts\")\n");
+  expect_in(of_pbs,
+            "film=(timeout --foreground --signal=TERM 28680 mars render \"$@\" --hostfile \"$kept/$job.hosts\")\n");
   expect_in(of_pbs,
             "queue_again() { qsub -o /films/out/.pbs/ -j oe -A physics /films/out/.pbs/job.sh >>\"$kept/again\"; "
             "}\n");
@@ -117,6 +118,14 @@ TEST(BatchScript, HasTheWordsOfEachSystem) {
   job.time = job.partition = "";
   EXPECT_FALSE(document::holds(script_of(job, lsf()), "#BSUB -W"));
   expect_in(script_of(job, lsf()), "film=(mars render ");
+}
+
+// The tests of programs may run as root, who can write into any folder.
+TEST(BatchScript, NamesItsFolderBeforeItWritesThere) {
+  for (const BatchSystem& system : batch_systems()) {
+    const std::string script = script_of(some_job(), system);
+    EXPECT_LT(script.find("kept=/films"), script.find("$kept")) << system.name;
+  }
 }
 
 TEST(BatchScript, IsSubmittedByTheSystemsProgram) {
