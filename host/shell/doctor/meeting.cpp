@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostAddresses = 8;  // of a machine
 constexpr std::size_t kAtOnce = 50;        // machines: for fewer sockets than a process may usually open
+constexpr int kMostPatience = 4;           // times the patience for a group of machines, for all of them
 
 sockaddr_in address_of(const std::string& text, std::uint16_t port) {
   sockaddr_in address{};
@@ -90,6 +91,14 @@ void knock_at_some(const std::string& from, std::span<const Peer> peers, std::ch
   }
 }
 
+// Connections that nobody takes fill the system's queue, of 128 on some systems, and then it drops packets.
+void take_all(int socket, const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    pollfd ready{socket, POLLIN, 0};
+    if (poll(&ready, 1, -1) > 0) const child::Descriptor taken(accept4(socket, nullptr, nullptr, SOCK_CLOEXEC));
+  }
+}
+
 }  // namespace
 
 Door::Door(const std::string& address) : socket_(tcp_socket()) {
@@ -100,6 +109,13 @@ Door::Door(const std::string& address) : socket_(tcp_socket()) {
       getsockname(socket_.number(), pointer, &size) != 0)
     throw Failure(std::strerror(errno), "listening at " + address, "");
   port_ = ntohs(own.sin_port);
+  porter_ = std::jthread([this](const std::stop_token& stop) { take_all(socket_.number(), stop); });
+}
+
+// Closed for both directions, the socket wakes the thread.
+Door::~Door() {
+  porter_.request_stop();
+  shutdown(socket_.number(), SHUT_RDWR);
 }
 
 std::vector<std::string> own_addresses() {
@@ -118,8 +134,9 @@ std::vector<std::string> own_addresses() {
 }
 
 std::vector<Missed> knock(const std::string& from, std::span<const Peer> peers, std::chrono::milliseconds patience) {
+  const auto deadline = Clock::now() + kMostPatience * patience;
   std::vector<Missed> missed;
-  for (std::size_t first = 0; first < peers.size(); first += kAtOnce)
+  for (std::size_t first = 0; first < peers.size() && Clock::now() < deadline; first += kAtOnce)
     knock_at_some(from, peers.subspan(first, std::min(kAtOnce, peers.size() - first)), patience, missed);
   return missed;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "host/child/descriptor.h"
@@ -25,12 +26,16 @@ class Door {
  public:
   // At a port that nobody uses. Throws Failure where the system gives none.
   explicit Door(const std::string& address = "0.0.0.0");
+  ~Door();
+  Door(const Door&) = delete;
+  Door& operator=(const Door&) = delete;
 
   std::uint16_t port() const { return port_; }
 
  private:
   child::Descriptor socket_;
   std::uint16_t port_ = 0;
+  std::jthread porter_;
 };
 
 // This machine's, on its networks; where it has none, 127.0.0.1.
@@ -44,7 +49,8 @@ struct Missed {
   bool operator==(const Missed&) const = default;
 };
 
-// `from` knocks at all doors. `patience`: until packets that have no answer count as dropped.
+// `from` knocks at all doors, at some at a time. `patience`: until packets that have no answer count as dropped. Where
+// many are dropped, it gives up after a few times as long: those that were tried say enough.
 std::vector<Missed> knock(const std::string& from, std::span<const Peer> peers, std::chrono::milliseconds patience);
 
 }  // namespace mars::doctor
