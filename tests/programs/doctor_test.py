@@ -2,6 +2,7 @@
 
 import os
 import re
+import shutil
 import stat
 
 from harness import ENVIRONMENT, EXAMPLES, ProgramTest, main, needs_mpi
@@ -45,6 +46,7 @@ class Doctor(ProgramTest):
         self.assertRegex(printed, r"TROUBLE +a start +Open MPI cannot write its temporary files")
         self.assertIn("set TMPDIR", printed)
 
+    @needs_mpi
     def test_other_machines(self):
         """An ssh stands for machines: two are this one, the others are not ready."""
         ssh = self.write("bin/ssh", """#!/bin/sh
@@ -67,6 +69,15 @@ echo "Welcome to $2"; exec sh -c "$3"
         self.assertRegex(printed, r"ok MARS \S+, mars-node [0-9a-f]{8} ")
         self.assertNotIn("a start", printed)
         self.assertEqual(list(self.folder.glob(".mars-doctor*")), [])
+
+    def test_other_machines_without_mpirun(self):
+        for name in ["sh", "env"]:
+            (self.folder / "bin" / name).symlink_to(shutil.which(name))
+        ssh = self.write("bin/ssh", "#!/bin/sh\nuntil [ \"$1\" = -- ]; do shift; done\nexec sh -c \"$3\"\n")
+        ssh.chmod(0o755)
+        printed = plain(self.doctor("--hostfile", self.write("hosts", "alpha slots=2\n"), code=1, PATH=str(ssh.parent)))
+        self.assertEqual(printed.count("TROUBLE MPI mpirun was not found"), 1)
+        self.assertNotIn("a start", printed)
 
     def test_a_hostfile_that_names_no_host(self):
         self.fail_clearly(1, "doctor", "--hostfile", self.write("hosts", ""), says="names no host")

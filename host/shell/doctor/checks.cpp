@@ -23,7 +23,7 @@ std::string first_line(const std::string& text) { return text.substr(0, text.fin
 
 bool has(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-bool several_machines(const Facts& facts) { return facts.slurm && facts.slurm->machines > 1; }
+bool several_machines(const Facts& facts) { return facts.has_others || (facts.slurm && facts.slurm->machines > 1); }
 
 // "5.0.3", with its first number; "" where an mpirun that prints this is another MPI's.
 std::string version_of(launch::Mpi mpi, const std::string& printed) {

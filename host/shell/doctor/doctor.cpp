@@ -22,7 +22,7 @@ using State = Finding::State;
 std::optional<launch::Trial> try_to_start(const DoctorOptions& options, const launch::Programs& programs,
                                           const std::filesystem::path& self) {
   const bool mpi = programs.mpirun && programs.host && programs.node;
-  const bool threads = programs.threads && launch::asked_machines("", child::own_environment()).empty();
+  const bool threads = programs.threads && launch::asked_machines(options.hostfile, child::own_environment()).empty();
   if (!mpi && !threads) return std::nullopt;
   options::RenderOptions render;
   render.nodes = options.nodes;
@@ -39,6 +39,11 @@ std::string names_of(const std::vector<MachineFindings>& machines) {
 // It must be the same on all machines; it is about the job as a whole.
 bool is_shared(const Finding& finding) { return finding.about == "MARS" || finding.about == "MPI"; }
 bool is_of_job(const Finding& finding) { return finding.about == "Slurm" || finding.about == "srun"; }
+
+// Where machines are asked, this one need not be one of them, but it starts the job.
+bool is_of_start(const Finding& finding) {
+  return is_of_job(finding) || (finding.about == "MPI" && finding.state == State::trouble);
+}
 
 std::vector<Finding> all_of(const Cluster& cluster) {
   std::vector<Finding> findings = cluster.findings;
@@ -64,6 +69,7 @@ std::string advice_about(const Cluster& cluster) {
 MachineFindings findings_for_another(const DoctorOptions& options, const std::filesystem::path& self) {
   constexpr std::size_t kShownDigits = 8;
   Facts facts = gather_facts(self, options.nodes, launch::Ask::programs);
+  facts.has_others = true;
   if (facts.slurm) facts.slurm->tasks = 0;  // they are those of this visit
   MachineFindings own{options.own_name, check_machine(facts)};
   std::erase_if(own.findings, is_of_job);
@@ -114,11 +120,13 @@ bool run_doctor(const DoctorOptions& options, const std::filesystem::path& self)
   std::optional<launch::Trial> trial;  // over machines in trouble it would only wait long
   if (!cluster || !in_trouble(cluster->findings)) trial = try_to_start(options, facts.programs, self);
   if (trial && !trial->booted.nodes.empty()) facts.nodes = static_cast<std::uint32_t>(trial->booted.nodes.size());
+  facts.has_others = cluster.has_value();
   std::vector<Finding> findings = check_machine(facts);
   std::string names = facts.host;
   if (cluster) {
-    std::erase_if(findings, std::not_fn(is_of_job));
-    for (const Finding& each : all_of(*cluster)) findings.push_back(each);
+    std::erase_if(findings, std::not_fn(is_of_start));
+    for (const Finding& each : all_of(*cluster))
+      if (std::ranges::find(findings, each) == findings.end()) findings.push_back(each);
     if (!cluster->machines.empty()) names = names_of(cluster->machines);
   }
   if (trial) findings.push_back(check_start(*trial));

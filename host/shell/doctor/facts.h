@@ -54,6 +54,7 @@ struct Facts {
   std::string display;                      // that the environment names; "": none
   std::optional<SlurmJob> slurm;
   std::uint32_t nodes = 1;  // of a rendering on this machine
+  bool has_others = false;  // the rendering is to use other machines, too
 };
 
 std::string host_name();
