@@ -8,9 +8,17 @@
 namespace mars::launch {
 namespace {
 
-bool is_there(const std::filesystem::path& file) {
+namespace fs = std::filesystem;
+
+// File systems of networks remember for half a minute that a name was not there, unless its folder is opened.
+bool is_there(const fs::path& file) {
   std::error_code none;
-  return std::filesystem::exists(file, none);
+  if (fs::exists(file, none)) return true;
+  for (fs::path folder = fs::absolute(file, none); folder.has_relative_path();) {
+    folder = folder.parent_path();
+    const fs::directory_iterator opened(folder, none);
+  }
+  return fs::exists(file, none);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Whether this machine sees the folder into which a job's host writes. The host may be on another machine, and that
-// have a folder of its own by this name.
+// Whether this machine sees the folder into which a job's host writes. The host may be on another machine, which
+// may have a folder of its own by this name.
 #pragma once
 
 #include <chrono>
