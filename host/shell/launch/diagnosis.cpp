@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "hal/failure/explain.h"
+#include "host/child/child.h"
 #include "host/shell/launch/losses.h"
 #include "host/shell/launch/mpi_words.h"
 #include "host/shell/launch/text_reader.h"
@@ -88,11 +90,18 @@ Failure with_machine(const Failure& known, const std::string& words) {
   return Failure(problem, "machine " + machine, known.remedy);
 }
 
+// What keeps others from advising does not hide the failure.
+std::string text_of(const Advice& advice) try { return advice(); } catch (const child::Stopped&) {
+  throw;
+} catch (const std::exception& reason) {
+  return reason_of(reason);
+}
+
 // The reason why it did not start is likely to be seen from here, too.
 Failure with_advice(const Failure& failure, const Advice& advice) {
   if (!advice) return failure;
   std::string remedy = failure.remedy;
-  const std::string more = advice();
+  const std::string more = text_of(advice);
   if (!more.empty()) remedy += (remedy.empty() || remedy.ends_with('\n') ? "" : "\n") + more;
   return Failure(failure.problem, failure.where, remedy);
 }
