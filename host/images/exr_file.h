@@ -16,7 +16,7 @@
 
 namespace mars::images {
 
-// Throws Failure where MARS was built without OpenEXR, as all functions for EXR files do then.
+// Throws Failure where MARS was built without OpenEXR, as all functions do then that are given an EXR file.
 void check_exr_is_built();
 
 // The note of an EXR file that begins with these bytes; none where they hold no whole one.
