@@ -1,7 +1,8 @@
 #!/bin/sh
 # A sample for slurm.conf: Epilog=/etc/slurm/epilog.sh. Slurm runs it as root on each machine of a job that has ended.
-# Once the user has no process left on the machine, it removes what killed processes of Open MPI and MARS left there: folders
-# of sessions and segments of shared memory. It always ends with 0, because Slurm drains a machine whose epilog fails.
+# Once the user has no process left on the machine, it removes what killed processes of Open MPI and MARS left there:
+# folders of sessions and segments of shared memory. It always ends with 0, because Slurm drains a machine whose epilog
+# fails.
 uid=$SLURM_JOB_UID
 pgrep -u "$uid" >/dev/null
 [ $? = 1 ] || exit 0 # 0: some are there; 2 and more: pgrep cannot say

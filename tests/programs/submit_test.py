@@ -410,7 +410,7 @@ class OtherSystems(SideBySide, FakeSlurm):
     def test_what_others_do_not_have(self):
         film = spinning_teapot(12, [64, 36])
         self.assertClear(self.submit("lsf", film, "--array", 2).stderr, "only Slurm gets an array of jobs from mars")
-        self.assertClear(self.submit("lsf", film, "--time", "soon").stderr, "'soon' is no time as 8:00:00")
+        self.assertClear(self.submit("lsf", film, "--time", "soon").stderr, "'soon' is not a time such as 8:00:00, which LSF needs")
 
 
 if __name__ == "__main__":

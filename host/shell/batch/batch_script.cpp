@@ -113,7 +113,7 @@ std::string words_text(const BatchJob& job) {
   return text + "set -- " + document::joined(words, " ") + "\n";
 }
 
-// From the first line of a text that begins so.
+// The place of the first line that begins so, which is there.
 std::size_t line_with(const std::string& text, std::string_view beginning) {
   const std::size_t at = text.find("\n" + std::string(beginning));
   check(at != std::string::npos, "the script has all its parts");

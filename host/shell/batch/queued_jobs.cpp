@@ -113,7 +113,7 @@ std::string partition_doubt(const std::string& line, const BatchJob& job, const 
          ": it may wait for ever; give smaller --nodes or --tasks";
 }
 
-// By words of a person that count more than what MARS asks for.
+// Whether a person's own words, which count more than MARS's, may choose a partition, machines or tasks.
 bool chooses_itself(const BatchJob& job) {
   return std::ranges::any_of(job.more, [](const std::string& word) {
     const auto begins = [&](std::string_view option) { return word.starts_with(option); };

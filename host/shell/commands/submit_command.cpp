@@ -97,10 +97,8 @@ void add_job_options(cli::Command command, SubmitWords& words) {
   command
       .add("--sbatch", words.sbatch,
            "More options for sbatch, or for qsub, bsub or flux batch, quoted as one word of the shell; they override "
-           "the "
-           "options above and those of the script and the environment. You can give this option several times. "
-           "Example: --sbatch \"--account=physics "
-           "--qos=long\"")
+           "the options above and those of the script and the environment. You can give this option several times. "
+           "Example: --sbatch \"--account=physics --qos=long\"")
       .repeated()
       .type("WORDS")
       .check(words_on_a_line);
@@ -155,7 +153,7 @@ batch::ArrayParts parts_of(const SubmitWords& words, const film::CompiledFilm& f
   return parts;
 }
 
-// More words for what submits.
+// More words for the program that submits.
 std::vector<std::string> sbatch_words(const SubmitWords& words) {
   std::vector<std::string> all;
   for (const std::string& text : words.sbatch)
@@ -199,7 +197,7 @@ void check_system(const SubmitWords& words, const batch::BatchSystem& system) {
     throw cli::UsageError("--array", "only Slurm gets an array of jobs from mars; leave it out for " + system.name);
   if (!is_slurm && !words.job.time.empty() && batch::seconds_of(words.job.time).value_or(0) == 0)
     throw cli::UsageError("--time",
-                          "'" + words.job.time + "' is no time as 8:00:00, and " + system.name + " needs one");
+                          "'" + words.job.time + "' is not a time such as 8:00:00, which " + system.name + " needs");
 }
 
 void print_number(const SubmitWords& words, const std::string& number, const batch::ArrayParts& parts) {

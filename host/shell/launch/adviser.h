@@ -1,4 +1,4 @@
-// What the launcher asks those who know machines, such as mars doctor, about a start that is slow or has failed.
+// The launcher's questions about a start that is slow or has failed, to those who know machines, such as mars doctor.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace mars::launch {
 
-// What is wrong with the surroundings for a run with these options, in lines.
+// Each answer says in lines what is wrong with the surroundings for a run with these options.
 struct Adviser {
   using Question = std::function<std::string(const options::RenderOptions& options)>;
   Question while_it_starts;  // asked on a thread of its own while the run is waited for: starts no program

@@ -24,7 +24,7 @@ class Job {
     Clock::duration patience;                   // with nodes that do not all answer, until `waited`
     std::function<void(child::Child&)> waited;  // called once then
     std::function<void()> tick;                 // now and then
-    std::function<bool()> is_in_vain = {};      // then too: whether the job is stopped; none: it is not
+    std::function<bool()> is_in_vain = {};      // asked as often: whether to stop the job; none: never
   };
 
   explicit Job(Display& display) : display_(display) {}

@@ -43,9 +43,9 @@ struct Remains {
     return std::ranges::any_of(last_words,
                                [&](const std::string& line) { return line.starts_with("mars: ") && is_own(line); });
   }
-  // All its frames are where they belong, though it may have had to be ended.
-  // It would not begin another time either.
+  // It could not begin, because machines do not reach each other: it would not begin another time either.
   bool is_cut_off() const { return !booted && !cut_off.empty(); }
+  // All its frames are where they belong, though it may have had to be ended.
   bool well() const { return done && (ending.well() || !ended_for.empty()); }
   // Frames that it brought.
   std::uint32_t brought() const { return std::max(progress.done(), recorded); }

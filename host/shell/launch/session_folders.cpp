@@ -90,7 +90,7 @@ void remove_folder(const fs::path& path) {
   fs::remove_all(path, ignored);
 }
 
-// Where it is ours, and no link.
+// Whether it is this user's and of that kind itself, not by a link.
 bool is_own(const fs::path& path, mode_t kind) {
   struct stat found {};
   return lstat(path.c_str(), &found) == 0 && (found.st_mode & S_IFMT) == kind && found.st_uid == geteuid();
