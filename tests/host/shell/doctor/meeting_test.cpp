@@ -68,10 +68,17 @@ TEST(Knock, AnyAddressOfAMachineWillDo) {
   EXPECT_TRUE(knock("n1", std::vector<Peer>{{"n3", open.port(), {"127.0.0.2", "127.0.0.3"}}}, kLong).empty());
 }
 
+// More of them than the system keeps connections that nobody takes.
 TEST(Knock, ManyMachinesAreTriedInTurn) {
   const Door open("127.0.0.2");
-  const std::vector<Peer> peers(1000, {"n2", open.port(), {"127.0.0.2"}});
+  const std::vector<Peer> peers(5000, {"n2", open.port(), {"127.0.0.2"}});
   EXPECT_TRUE(knock("n1", peers, kLong).empty());
+}
+
+TEST(Knock, HasAnEndWhereAllPacketsAreDropped) {
+  const FullDoor full;
+  const std::vector<Peer> peers(10000, {"n4", full.port(), {"127.0.0.4"}});
+  EXPECT_LT(knock("n1", peers, milliseconds(1)).size(), peers.size());
 }
 
 }  // namespace
