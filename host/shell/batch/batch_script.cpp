@@ -60,17 +60,27 @@ Values values_of(const BatchSystem& system, const BatchJob& job) {
 }
 
 struct Filled {
-  std::string text;
+  std::string text{};
   bool complete = true;  // all that it names has a value
 };
 
-Filled filled(std::string text, const Values& values) {
-  Filled filled{std::move(text)};
-  for (const auto& [name, value] : values) {
-    const std::string key = "{" + name + "}";
-    for (std::size_t at = 0; (at = filled.text.find(key, at)) != std::string::npos; at += value.size()) {
-      filled.text.replace(at, key.size(), value);
-      filled.complete = filled.complete && !value.empty();
+// In one pass: values may hold braces of their own.
+Filled filled(const std::string& text, const Values& values) {
+  Filled filled;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const std::size_t brace = std::min(text.find('{', from), text.size());
+    filled.text.append(text, from, brace - from);
+    const auto value = std::ranges::find_if(values, [&](const auto& each) {
+      return text.compare(brace, each.first.size() + 2, "{" + std::string(each.first) + "}") == 0;
+    });
+    from = brace;
+    if (value != values.end()) {
+      filled.text += value->second;
+      filled.complete = filled.complete && !value->second.empty();
+      from += value->first.size() + 2;
+    } else if (from < text.size()) {
+      filled.text += text[from++];
     }
   }
   return filled;

@@ -82,7 +82,8 @@ MachineFindings findings_for_another(const DoctorOptions& options, const std::fi
   const std::string folder = std::filesystem::path(options.token).parent_path().string();
   own.findings.push_back(document::file_exists(options.token)
                              ? Finding{State::good, "folder", folder + " is the same on all machines", ""}
-                             : Finding{State::note, "folder", folder + " is not that of the first machine",
+                             : Finding{State::note, "folder",
+                                       folder + " is not the folder that the machine of this command sees",
                                        "render into a folder that all machines share, or use --write host"});
   return own;
 }
