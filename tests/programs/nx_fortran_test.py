@@ -10,7 +10,7 @@ from nx_installation import NxInstallation
 
 PROJECT = """cmake_minimum_required(VERSION 3.16)
 project(calls LANGUAGES C Fortran)
-find_package(mars-nx 0.2 CONFIG REQUIRED)
+find_package(mars-nx @VERSION@ CONFIG REQUIRED)
 add_executable(calls fortran_calls.f)
 target_compile_options(calls PRIVATE -w)
 target_link_libraries(calls PRIVATE mars-nx::nx-fortran)

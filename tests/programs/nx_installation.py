@@ -37,9 +37,10 @@ class NxInstallation(ProgramTest):
         self.succeed("cc", *options, f"{program}.c", "-o", program, *self.flags("--cflags", "--libs"))
 
     def build_by_cmake(self, project):
-        """With the generator that MARS was built with: no other need be installed."""
+        """With the generator that MARS was built with: no other need be installed. @VERSION@ is that of MARS."""
         cache = (harness.BUILD / "CMakeCache.txt").read_text()
-        self.write("CMakeLists.txt", project)
+        version = re.search(r"^CMAKE_PROJECT_VERSION:STATIC=(\d+\.\d+)", cache, re.M)[1]
+        self.write("CMakeLists.txt", project.replace("@VERSION@", version))
         self.succeed("cmake", "-G", re.search(r"^CMAKE_GENERATOR:INTERNAL=(.*)$", cache, re.M)[1], "-S", ".", "-B", "build",
                      f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.succeed("cmake", "--build", "build")

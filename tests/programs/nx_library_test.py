@@ -23,7 +23,7 @@ RANKS = ["0 of 3", "1 of 3", "2 of 3"]
 
 PROJECT = """cmake_minimum_required(VERSION 3.16)
 project(ranks LANGUAGES C)
-find_package(mars-nx 0.2 CONFIG REQUIRED)
+find_package(mars-nx @VERSION@ CONFIG REQUIRED)
 add_executable(rank rank.c)
 target_link_libraries(rank PRIVATE mars-nx::nx)
 """
