@@ -98,7 +98,15 @@ class Browser(Chromium):
                          modifiers=modifiers, windowsVirtualKeyCode=ord(name.upper()) if len(name) == 1 else 0)
 
     def find(self, view, wanted):
-        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it."""
+        """A place of a view's picture at which the mouse finds something whose text has `wanted` in it. What a busy
+        studio says too late is found the next time."""
+        last = time.monotonic() + self.patience
+        while not (found := self.find_once(view, wanted)):
+            if time.monotonic() > last:
+                raise AssertionError(f"nothing there has '{wanted}'")
+        return found
+
+    def find_once(self, view, wanted):
         left, top, width, height = self.run("""
             const at = arguments[0].getBoundingClientRect();
             return [at.x, at.y, at.width, at.height];""", view)
@@ -113,7 +121,7 @@ class Browser(Chromium):
                         return [view.dataset.over, view.querySelector('.tip').textContent];""", view)
                     if over == "limb" and wanted in text:
                         return x, y
-        raise AssertionError(f"nothing there has '{wanted}'")
+        return None
 
     def screenshot(self, path):
         self.driver.save_screenshot(str(path))

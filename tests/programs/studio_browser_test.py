@@ -13,9 +13,13 @@ from selenium.webdriver.support.ui import Select
 from harness import *
 from studio_browser import CTRL, PATIENCE, SHIFT, Browser, Proxy, Studio, tree_of
 
-# Counts what the studio says and what the page paints; a person sees both.
+# Counts what the studio says and what the page paints, and keeps which banners came; a person sees all of them.
 PROBE = """
-window.seen = {projects: 0, painted: 0, exact: null};
+window.seen = {projects: 0, painted: 0, exact: null, banners: []};
+new MutationObserver((changes) => {
+  for (const {addedNodes} of changes)
+    for (const node of addedNodes) if (node.matches?.(".banner")) window.seen.banners.push(node.dataset.about);
+}).observe(document, {childList: true, subtree: true});
 {
   const Plain = window.WebSocket, send = Plain.prototype.send;
   window.WebSocket = class extends Plain {
@@ -382,9 +386,9 @@ class FilmTest(StudioInBrowser):
         self.wave(at, lambda: self.browser.run("return window.seen.painted") > 12)
         for process in self.host_of(studio):
             os.kill(process, signal.SIGKILL)
-        gone = "document.querySelector('.banner[data-about=renderer]')"
-        self.wave(at, lambda: self.browser.run(f"return {gone} !== null"))
-        self.wave(at, lambda: self.browser.run(f"return {gone} === null"))
+        self.wave(at, lambda: self.browser.run("return window.seen.banners.includes('renderer')"))
+        banner = "document.querySelector('.banner[data-about=renderer]')"
+        self.wave(at, lambda: self.browser.run(f"return {banner} === null"))
         before = self.browser.run("return window.seen.painted")
         self.wave(at, lambda: self.browser.run("return window.seen.painted") > before + 4)
         self.changed_by(lambda: self.browser.release(*at))
