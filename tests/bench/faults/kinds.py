@@ -211,7 +211,7 @@ KINDS = [
     Kind("disk-full", "the disk is full for 20 s", "the folder's file system filled", "No space left", disk_full),
     Kind("read-only", "the disk is read-only for 20 s", "`mount -o remount,bind,ro`", "Read-only", read_only),
     Kind("hang", "storage hangs for 30 s", "`fsfreeze`", "storage|sink|cannot write|has not answered", hangs),
-    Kind("delete", "the folder is deleted", "`rm -r`; the same command again", "No such file|deleted|gone|vanished",
+    Kind("delete", "the folder is deleted", "`rm -r`; the same command again", "was removed or renamed",
          deleted, code=1, again=True),
     Kind("bad-frame", "a frame kills its nodes", "a node that dies when it begins frame 200; later the same "
          "command, with sound nodes", "set aside|left out", planned, code=1, again=True, plan="die 200"),
