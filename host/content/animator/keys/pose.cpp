@@ -96,11 +96,11 @@ void require_own_turn(const PartSetting& setting, const std::string& text, const
     throw Failure("is no turn about one axis", "'" + text + "'", "with --local write it like elbow.x+=30");
 }
 
-// `local` turns those parts of a pattern's matches that turn.
-std::vector<PartSetting> settings_of(const std::string& text, const Thing& thing, const PoseManner& manner) {
+// A pattern that matches parts that turn means these alone: degrees are no lengths.
+std::vector<PartSetting> settings_of(const std::string& text, const Thing& thing) {
   std::vector<PartSetting> settings = read_settings(text, thing);
   const auto turns = [&](const PartSetting& setting) { return joint_of(thing.part(setting.part)) != nullptr; };
-  if (manner.local && std::ranges::any_of(settings, turns)) std::erase_if(settings, std::not_fn(turns));
+  if (std::ranges::any_of(settings, turns)) std::erase_if(settings, std::not_fn(turns));
   return settings;
 }
 
@@ -366,7 +366,7 @@ Remarks pose(document::Json& film, const Film& meaning, const std::string& name,
   std::set<std::pair<std::string, int>> set;
   std::vector<PartSetting> all;
   for (const std::string& text : settings) {
-    const std::vector<PartSetting> parts = settings_of(text, posing.thing(), manner);
+    const std::vector<PartSetting> parts = settings_of(text, posing.thing());
     for (const PartSetting& part : parts) {
       refuse_twice(part, text, set);
       if (manner.local) require_own_turn(part, text, posing.thing());

@@ -70,6 +70,9 @@ TEST_F(Poses, ChangeAllKeysOfARange) {
 TEST_F(Poses, ByPatternsAreOfAllPartsThatCanTurnThere) {
   pose("it", {"*-shin.y+=5"}, {12, 12});
   EXPECT_EQ(key(1), document::Json::parse(R"({"left-shin": [0, 55, 0], "right-shin": [0, 5, 0]})"));
+  pose("it", {"*.y+=5"}, {12, 12});
+  EXPECT_FALSE(key(1).contains("place")) << "degrees are no lengths";
+  EXPECT_EQ(key(1)["left-shin"], document::Json::parse("[0, 60, 0]"));
   EXPECT_NE(failure("it", {"*-shin.x+=5"}, {12, 12}).find("like it are: left-shin, right-shin"), std::string::npos);
   EXPECT_NE(failure("it", {"*-shim.y+=5"}, {12, 12}).find("its parts are: place, turn"), std::string::npos);
   EXPECT_NE(failure("it", {"*-shin.y+=5", "left-shin.y=1"}, {12, 12}).find("an earlier word"), std::string::npos);
