@@ -179,7 +179,13 @@ class Films:
         if frames == "frames":
             shutil.rmtree(self.folder / frames, ignore_errors=True)
         watcher = Watcher(way["--watch"]) if "--watch" in way else None
-        self.run(self.words(path, way, frames), environment)
+        try:
+            self.run(self.words(path, way, frames), environment)
+        except Refused as refused:  # the film's shadows need more memory: then they have to do with the least
+            least = re.search(r"set MARS_MEMORY to (\d+) or more", str(refused))
+            if not least or "MARS_MEMORY" not in environment:
+                raise
+            self.run(self.words(path, way, frames), environment | {"MARS_MEMORY": least[1]})
         if watcher:
             self.check_watcher(watcher, path, frames)
         return self.pixels(frames)
