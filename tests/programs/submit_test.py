@@ -6,7 +6,7 @@ import shutil
 import signal
 import subprocess
 
-from harness import (ENVIRONMENT, SECONDS, SOURCES, ProgramTest, SideBySide, complaints, main, needs,
+from harness import (ENVIRONMENT, PROGRAMS, SECONDS, SOURCES, ProgramTest, SideBySide, complaints, main, needs,
                      needs_mpi, spinning_teapot, wait_until)
 
 LONG = 20000  # frames: more than are rendered while a test looks on
@@ -128,6 +128,14 @@ class Commands(SideBySide, FakeSlurm):
                          r"^mars: 24 of 24 frames, [0-9.]+ processor [a-z]+, [0-9.]+ MB written, 0 restarts\n$")
         self.refused(2, "status", "out", "--json", "--comment", says="--comment")
 
+    def test_a_prologue_that_bash_cannot_read(self):
+        for code, text, says in [(1, b"if true; then\n", "line "), (1, b"fi \x01\xff(\n", "line "),
+                                 (2, b"true\nmodule load gcc\r\n", "line 2 ends with CR LF"),
+                                 (2, b"\x7fELF\0", "line 1 is no text")]:
+            (self.folder / "odd.sh").write_bytes(text)
+            self.refused(code, "submit", "film.json", "-o", "out", "--prologue", "odd.sh", says=says)
+            self.assertFalse((self.folder / "out/.slurm").exists() or (self.folder / "submitted").exists(), text)
+
     def test_what_may_never_come_to_a_frame_is_said_before(self):
         submit = lambda *words: self.run_program("mars", "submit", "film.json", "-o", "out", *words,
                                                  env=self.environment).stderr
@@ -186,6 +194,19 @@ class Commands(SideBySide, FakeSlurm):
         self.program("squeue", "echo 'squeue: error: timed out' >&2; exit 1")
         self.assertIn("jobs are unknown: squeue failed: squeue: error: timed out\n", self.slurm("status", "out"))
         self.refused(1, "cancel", "out", says="squeue failed: squeue: error: timed out")
+
+    def test_a_queue_that_hangs_can_be_left(self):
+        self.submit()
+        self.program("squeue", "touch begun; exec sleep 1000")
+        for command in ["status", "watch", "cancel"]:
+            process = subprocess.Popen([PROGRAMS / "mars", command, "out"], env=self.environment, cwd=self.folder,
+                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            self.addCleanup(self.end, process)
+            wait_until((self.folder / "begun").exists, SECONDS, "squeue does not begin")
+            process.send_signal(signal.SIGTERM)
+            said = process.communicate(timeout=SECONDS)[1]
+            self.assertClear(said, "stopped by Terminated")
+            (self.folder / "begun").unlink()
 
 
 class Jobs(SideBySide, FakeSlurm):

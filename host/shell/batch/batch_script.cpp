@@ -1,13 +1,18 @@
 #include "host/shell/batch/batch_script.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
 
 #include "hal/failure/failure.h"
+#include "host/child/descriptor.h"
+#include "host/child/programs.h"
 #include "host/content/document/file.h"
 #include "host/content/document/shell_word.h"
 #include "host/content/document/text.h"
+#include "host/shell/batch/ask.h"
 
 namespace mars::batch {
 
@@ -174,6 +179,22 @@ std::string batch_script(const BatchSystem& system, const std::string& script_te
   std::string setup = setup_of(system, script_template, values);
   setup.insert(line_with(setup, kStart), words_text(job));
   return head_text(system, job, values) + setup + script_template.substr(line_with(script_template, kShared));
+}
+
+// Complaints about this machine, as of its locale, do not begin with the file's name.
+void check_script(const std::string& script) {
+  constexpr std::size_t kLongest = 200;  // bytes of what bash says
+  const std::string bash = "/bin/bash";  // which the script names; only the job's machines need it
+  if (!child::runnable(bash)) return;
+  const child::Descriptor file = child::file_in_memory(script);
+  const std::string name = "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file.number());
+  const Answer answer = ask("bash", {bash, "-n", name});
+  const std::size_t at = answer.complaints.find(name + ": ");
+  if (answer.ending.well() && at == std::string::npos) return;
+  std::string reason = answer.complaints.substr(at == std::string::npos ? 0 : at + name.size() + 2);
+  reason.resize(std::min(reason.size(), reason.find("; " + name)));
+  throw Failure("bash cannot read the batch script: " + document::printable(reason, kLongest), "",
+                "correct the file of --prologue; mars submit --print shows the script");
 }
 
 Words submit_words(const BatchSystem& system, const BatchJob& job) {

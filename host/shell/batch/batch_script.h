@@ -36,6 +36,9 @@ std::string script_template(const std::filesystem::path& self);
 // `script_template`: that of Slurm.
 std::string batch_script(const BatchSystem& system, const std::string& script_template, const BatchJob& job);
 
+// Throws Failure, with what bash says, where it cannot read the whole script.
+void check_script(const std::string& script);
+
 // The program that submits the script, with its words.
 std::vector<std::string> submit_words(const BatchSystem& system, const BatchJob& job);
 

@@ -31,7 +31,7 @@ struct BatchSystem {
   Words submit;             // a program and its words
   Words again;              // how a job submits its script again; none: its setup says how the job is queued again
   Words list;
-  int header;  // lines before the first job
+  int header;  // lines before the first job, of which the last is one of dashes
   Columns columns;
   std::vector<std::array<std::string, 2>> states;  // words for people in place of its own
   Words ended;                                     // its own states of jobs that have ended

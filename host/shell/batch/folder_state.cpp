@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hal/failure/failure.h"
+#include "host/child/child.h"
 #include "host/content/document/text.h"
 #include "host/render/sinks/frame_folder.h"
 #include "host/shell/batch/remembered_jobs.h"
@@ -51,6 +52,8 @@ void count_frames(FolderState& state, const fs::path& folder) {
 void find_jobs(FolderState& state, const std::vector<Jobs>& jobs) {
   try {
     state.jobs = queued_jobs(jobs);
+  } catch (const child::Stopped&) {
+    throw;
   } catch (const Failure& failure) {
     state.no_jobs = failure.problem;
   }

@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "hal/failure/failure.h"
-#include "host/child/child.h"
 #include "host/child/environment.h"
 #include "host/child/programs.h"
 #include "host/content/document/text.h"
@@ -18,30 +17,15 @@ using Words = std::vector<std::string>;
 
 constexpr std::uint64_t kShort = 600;  // seconds of a time limit, which Slurm announces two to three minutes before
 
-struct Answer {
-  child::Ending ending;
-  Words lines;
-  std::string complaints;  // on one line
-};
-
 std::string own_path() { return child::program_path(child::own_environment()); }
-
-Answer ask(Words words) {
-  const auto found = child::find_program(words.front(), own_path());
-  if (!found) throw Failure(words.front() + " was not found", "", "use a machine from which jobs are submitted");
-  words.front() = found->string();
-  Answer answer;
-  child::Child child(child::Command{{}, words});
-  answer.ending = child.wait(
-      {[&](const std::string& line) { answer.lines.push_back(line); },
-       [&](const std::string& line) { answer.complaints += (answer.complaints.empty() ? "" : "; ") + line; }, [] {}});
-  child::fail_if_stopped(child);
-  return answer;
-}
 
 [[noreturn]] void refuse(const std::string& program, const Answer& answer) {
   const std::string words = answer.complaints.empty() ? "without a word" : answer.complaints;
   throw Failure(program + " failed: " + words, "", "");
+}
+
+[[noreturn]] void fail_to_understand(const std::string& program, const std::string& line) {
+  throw Failure(program + "'s answer is not understood: " + document::printable(line), "", "");
 }
 
 bool names_unknown_job(const BatchSystem& system, const Answer& answer) {
@@ -63,9 +47,22 @@ Words fields_of(const std::string& line, char separator) {
   return fields;
 }
 
+bool is_state(const std::string& text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) { return std::isalpha(c) || c == '_'; });
+}
+
 std::string state_text(const BatchSystem& system, const std::string& state) {
   const auto known = std::ranges::find_if(system.states, [&](const auto& word) { return word[0] == state; });
   return known == system.states.end() ? lower(state) : (*known)[1];
+}
+
+// How many lines it is. An answer without it says nothing of jobs, not even that there are none.
+std::size_t header_of(const BatchSystem& system, const Words& lines) {
+  const auto header = static_cast<std::size_t>(system.header);
+  if (header == 0 || lines.empty()) return 0;
+  if (lines.size() < header || !lines[header - 1].starts_with("--"))
+    fail_to_understand(system.list.front(), lines.front());
+  return header;
 }
 
 // With the jobs' numbers for {jobs}, as words of their own or within a word.
@@ -113,6 +110,12 @@ std::string partition_doubt(const std::string& line, const BatchJob& job, const 
          ": it may wait for ever; give smaller --nodes or --tasks";
 }
 
+Words partition_lines(std::chrono::milliseconds longest) try {
+  return ask("sinfo", {"sinfo", "--noheader", "--format=%P|%D|%C"}, longest).lines;
+} catch (const NoAnswer&) {
+  return {};
+}
+
 // Whether a person's own words, which count more than MARS's, may choose a partition, machines or tasks.
 bool chooses_itself(const BatchJob& job) {
   return std::ranges::any_of(job.more, [](const std::string& word) {
@@ -137,12 +140,12 @@ std::optional<QueuedJob> queued_job_of(const BatchSystem& system, const std::str
   const Words fields = fields_of(line, columns.separator);
   const auto field = [&](int column) {
     if (column < 0) return std::string();
-    if (static_cast<std::size_t>(column) >= fields.size())
-      throw Failure(system.list.front() + "'s answer is not understood: " + document::printable(line), "", "");
+    if (static_cast<std::size_t>(column) >= fields.size()) fail_to_understand(system.list.front(), line);
     const std::string& text = fields[static_cast<std::size_t>(column)];
     return text == "None" || text == "-" ? "" : text;
   };
   const std::string state = field(columns.state);
+  if (!is_state(state)) fail_to_understand(system.list.front(), line);
   QueuedJob job{field(columns.id),       state_text(system, state),
                 field(columns.time),     document::number_in<std::uint32_t>(field(columns.restarts)).value_or(0),
                 field(columns.machines), field(columns.reason)};
@@ -156,23 +159,23 @@ bool is_job_number(const std::string& text) {
   return !text.empty() && text.size() <= kLongest && text.front() != '-' && std::ranges::none_of(text, is_odd);
 }
 
-std::string submit_job(const BatchSystem& system, const BatchJob& job) {
-  const Answer answer = ask(submit_words(system, job));
+std::string submit_job(const BatchSystem& system, const BatchJob& job, std::chrono::milliseconds longest) {
   const std::string& program = system.programs.front();
+  const Answer answer = ask(program, submit_words(system, job), longest);
   if (!answer.ending.well() || answer.lines.empty()) refuse(program, answer);
   const std::string number = number_in(answer.lines.back());
-  if (!is_job_number(number))
-    throw Failure(program + "'s answer is not understood: " + document::printable(answer.lines.back()), "", "");
+  if (!is_job_number(number)) fail_to_understand(program, answer.lines.back());
   return number;
 }
 
-std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all) {
+std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all, std::chrono::milliseconds longest) {
   std::vector<QueuedJob> queued;
   for (const auto& [of, numbers] : all) {
     const BatchSystem& system = *of;
-    const Answer answer = ask(words_for(system.list, numbers));
+    const Answer answer = ask(system.list.front(), words_for(system.list, numbers), longest);
     if (!answer.ending.well() && !names_unknown_job(system, answer)) refuse(system.list.front(), answer);
-    for (std::size_t i = static_cast<std::size_t>(system.header); i < answer.lines.size(); ++i) {
+    const std::size_t header = header_of(system, answer.lines);
+    for (std::size_t i = header; i < answer.lines.size(); ++i) {
       if (answer.lines[i].empty()) continue;
       if (auto job = queued_job_of(system, answer.lines[i])) queued.push_back(std::move(*job));
     }
@@ -180,21 +183,21 @@ std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all) {
   return queued;
 }
 
-void cancel_jobs(const std::vector<Jobs>& all) {
+void cancel_jobs(const std::vector<Jobs>& all, std::chrono::milliseconds longest) {
   for (const auto& [of, numbers] : all) {
     const BatchSystem& system = *of;
     Words words = system.cancel;
     words.insert(words.end(), numbers.begin(), numbers.end());
-    const Answer answer = ask(words);
+    const Answer answer = ask(words.front(), words, longest);
     if (!answer.ending.well() && !names_unknown_job(system, answer)) refuse(system.cancel.front(), answer);
   }
 }
 
-std::vector<std::string> doubts_of(const BatchSystem& system, const BatchJob& job) {
+std::vector<std::string> doubts_of(const BatchSystem& system, const BatchJob& job, std::chrono::milliseconds longest) {
   Words doubts{short_limit_doubt(job)};
   if (system.name == "Slurm" && !chooses_itself(job) && child::find_program("sinfo", own_path())) {
     const auto given = child::own_environment().value("SBATCH_PARTITION");
-    for (const std::string& line : ask({"sinfo", "--noheader", "--format=%P|%D|%C"}).lines)
+    for (const std::string& line : partition_lines(longest))
       doubts.push_back(partition_doubt(line, job, job.partition.empty() ? given.value_or("") : job.partition));
   }
   std::erase(doubts, "");

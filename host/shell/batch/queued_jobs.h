@@ -1,11 +1,13 @@
 // Jobs of a batch system, by its own commands.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "host/shell/batch/ask.h"
 #include "host/shell/batch/batch_script.h"
 #include "host/shell/batch/batch_system.h"
 
@@ -37,15 +39,17 @@ struct Jobs {
   std::vector<std::string> numbers;
 };
 
-// All that follow throw Failure where the system's program is not there or refuses, with its own words.
+// All that follow throw Failure where the system's program is not there or refuses, with its own words, or NoAnswer.
 
 // Returns the job's number.
-std::string submit_job(const BatchSystem& system, const BatchJob& job);
+std::string submit_job(const BatchSystem& system, const BatchJob& job,
+                       std::chrono::milliseconds longest = kLongestAnswer);
 // Those that have not ended.
-std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all);
-void cancel_jobs(const std::vector<Jobs>& all);
+std::vector<QueuedJob> queued_jobs(const std::vector<Jobs>& all, std::chrono::milliseconds longest = kLongestAnswer);
+void cancel_jobs(const std::vector<Jobs>& all, std::chrono::milliseconds longest = kLongestAnswer);
 
-// Why the job may never run, or never come to a frame, each as a line; none where nothing is known.
-std::vector<std::string> doubts_of(const BatchSystem& system, const BatchJob& job);
+// Why the job may never run, or never come to a frame, each as a line; none where nothing is known in time.
+std::vector<std::string> doubts_of(const BatchSystem& system, const BatchJob& job,
+                                   std::chrono::milliseconds longest = std::chrono::seconds(5));
 
 }  // namespace mars::batch

@@ -48,9 +48,12 @@ ordered_json list_of(const Items& items) {
   return list;
 }
 
+// Folders' names need not be UTF-8, metrics must be.
 std::string label_of(const std::string& folder) {
+  const ordered_json name = std::filesystem::absolute(folder).lexically_normal().string();
+  const std::string whole = name.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string text;
-  for (const char letter : std::filesystem::absolute(folder).lexically_normal().string()) {
+  for (const char letter : ordered_json::parse(whole).get<std::string>()) {
     if (letter == '\\' || letter == '"') text += '\\';
     text += letter == '\n' ? "\\n" : std::string(1, letter);
   }

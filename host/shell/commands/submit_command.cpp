@@ -66,6 +66,16 @@ std::string words_on_a_line(const std::string& text) {
   return "";
 }
 
+// Bash would take a carriage return for a part of the line's last word, and leave out bytes of 0.
+std::string prologue_in(const std::string& file) {
+  const std::string text = document::read_file(file, kLongestPrologue);
+  const std::size_t odd = std::min(text.find("\r\n"), text.find('\0'));
+  if (odd == std::string::npos) return text;
+  const auto line = std::to_string(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(odd), '\n'));
+  throw Failure(text[odd] == '\r' ? "line " + line + " ends with CR LF" : "line " + line + " is no text", file,
+                "save it as a text with line ends of Unix");
+}
+
 void add_job_options(cli::Command command, SubmitWords& words) {
   command
       .add("--nodes", words.job.machines,
@@ -104,8 +114,7 @@ void add_job_options(cli::Command command, SubmitWords& words) {
       .check(words_on_a_line);
   command
       .add_read(
-          "--prologue",
-          [&](const std::string& word) { words.job.prologue = document::read_file(word, kLongestPrologue); },
+          "--prologue", [&](const std::string& word) { words.job.prologue = prologue_in(word); },
           "Lines of the shell for the script, before anything of MARS starts. Example: --prologue modules.sh")
       .type("FILE");
   command.add_flag("--parsable", words.parsable, "Print the number of the job and nothing else. Example: --parsable");
@@ -220,6 +229,7 @@ void submit(const SubmitWords& words) {
     std::cout << script;
     return;
   }
+  batch::check_script(script);
   for (const std::string& doubt : batch::doubts_of(system, job)) warn_submitter(doubt);
   const batch::RememberedJobs jobs(words.render.folder, system);
   jobs.write_script(script);

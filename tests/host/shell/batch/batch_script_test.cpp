@@ -96,6 +96,14 @@ TEST(BatchScript, BeginsWithThePrologue) {
             "module load gcc\n# Renders.\n");
 }
 
+TEST(BatchScript, IsOneThatBashReadsToItsEnd) {
+  const auto failure = [](const std::string& script) { return document::failure_of([&] { check_script(script); }); };
+  EXPECT_EQ(failure("#!/bin/bash\nexit 1\n"), "");
+  expect_in(failure("if true; then\n  exit\n"), "bash cannot read the batch script: line 3: syntax error");
+  expect_in(failure("cat <<END\n"), "here-document");
+  expect_in(failure("echo\nfi \x01\xff(\n"), "line 2: ");
+}
+
 TEST(BatchScript, HasTheWordsOfEachSystem) {
   BatchJob job = some_job();
   job.kept = "/films/out/.pbs";

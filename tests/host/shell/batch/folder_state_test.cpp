@@ -113,6 +113,8 @@ TEST(FolderState, HasMetricsOfOneGrammar) {
   const std::string text = metrics_of(state);
   EXPECT_TRUE(document::holds(text, "# TYPE mars_frames_done gauge\nmars_frames_done{folder=\"/a \\\"b\\\"\"} 20\n"));
   EXPECT_TRUE(document::holds(text, "\"} 12300000\n"));
+  state.folder = "/\xff";
+  EXPECT_TRUE(document::holds(metrics_of(state), "{folder=\"/\xEF\xBF\xBD\"}"));
   EXPECT_TRUE(text.ends_with("} 2\n# EOF\n"));
   std::istringstream lines(text);
   const std::regex sample(R"re(mars_[a-z_]+\{folder=".*"\} [0-9.e+-]+)re"), comment("# (HELP|TYPE|EOF).*");

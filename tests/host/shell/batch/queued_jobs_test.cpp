@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
 #include "tests/host/content/document/failure_of.h"
+#include "tests/temporary_folder.h"
 
 namespace mars::batch {
 namespace {
@@ -37,6 +42,50 @@ TEST(QueuedJob, SaysWhereItRunsOrWhyItWaits) {
   EXPECT_EQ(text_of({"12", "running", "0:20", 0, "", ""}), "job 12: running for 0:20");
   EXPECT_EQ(text_of({"12", "pending", "0:00", 1, "", "Resources"}), "job 12: pending (Resources), 1 restart");
   EXPECT_EQ(text_of({"12", "pending", "0:00", 2, "", ""}), "job 12: pending, 2 restarts");
+}
+
+// By the program printf.
+std::string failure_of_answer(const std::vector<std::string>& lines) {
+  BatchSystem system = batch_systems()[1];
+  system.list = {"printf", "%s\\n"};
+  system.list.insert(system.list.end(), lines.begin(), lines.end());
+  return document::failure_of([&] { EXPECT_EQ(queued_jobs({{&system, {"1"}}}).size(), 1u); });
+}
+
+TEST(QueuedJobs, AreUnknownWhereTheAnswerIsAnother) {
+  const std::string header = "Job id    Name  User  Time Use S Queue",
+                    dashes = "--------- ----- ----- -------- - -----";
+  EXPECT_EQ(failure_of_answer({header, dashes, "1.pbs mars ada 00:00:20 R workq"}), "");
+  EXPECT_EQ(failure_of_answer({"[]"}), "printf's answer is not understood: []");
+  EXPECT_EQ(failure_of_answer({"12"}), "printf's answer is not understood: 12");
+  EXPECT_EQ(failure_of_answer({"{", "  \"Jobs\": [", "    1", "  ]", "}"}), "printf's answer is not understood: {");
+  EXPECT_EQ(failure_of_answer({header, dashes, "1.pbs mars ada 00:00:20 7 workq"}),
+            "printf's answer is not understood: 1.pbs mars ada 00:00:20 7 workq");
+}
+
+TEST(QueuedJobs, AreUnknownWhereAProgramHangs) {
+  constexpr std::chrono::milliseconds kLimit{50};
+  BatchSystem system = batch_systems()[2];
+  system.list = system.cancel = system.submit = {"sh", "-c", "echo 1; exec sleep 1000"};
+  const std::vector<Jobs> jobs = {{&system, {"1"}}};
+  EXPECT_TRUE(document::failure_of([&] { queued_jobs(jobs, kLimit); }).starts_with("sh has not answered for 0.05 sec"));
+  EXPECT_THROW(cancel_jobs(jobs, kLimit), NoAnswer);
+  EXPECT_TRUE(document::failure_of([&] { submit_job(system, {}, kLimit); }).starts_with("bsub has not answered for "));
+}
+
+TEST(Doubts, AreLeftOutWhereSinfoHangs) {
+  const test::TemporaryFolder folder;
+  const std::filesystem::path sinfo = folder / "sinfo";
+  const std::string before = std::getenv("PATH");
+  setenv("PATH", (folder.path().string() + ":" + before).c_str(), 1);
+  const auto doubts = [&](const std::string& end, std::chrono::milliseconds longest) {
+    std::ofstream(sinfo) << "#!/bin/sh\necho 'main*|1|0/8/0/8'; " << end << "\n";
+    std::filesystem::permissions(sinfo, std::filesystem::perms::owner_all);
+    return doubts_of(batch_systems()[0], {}, longest).size();
+  };
+  EXPECT_EQ(doubts("exit", kLongestAnswer), 1u);
+  EXPECT_EQ(doubts("exec sleep 1000", std::chrono::milliseconds(50)), 0u);
+  setenv("PATH", before.c_str(), 1);
 }
 
 TEST(JobNumber, IsOneWordThatIsNoOption) {
