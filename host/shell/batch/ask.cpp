@@ -23,7 +23,7 @@ Answer ask(const std::string& name, std::vector<std::string> words, std::chrono:
                     if (late) child.stop();
                   }});
   child::fail_if_stopped(child);
-  // What it started may hold its output open a little longer than itself.
+  // An answer counts though a process that the program has left behind held the output open.
   if (late && (!answer.ending.well() || answer.lines.empty()))
     throw NoAnswer(
         name + " has not answered for " + document::shown(std::chrono::duration<double>(longest).count()) + " seconds",

@@ -181,10 +181,10 @@ std::string batch_script(const BatchSystem& system, const std::string& script_te
   return head_text(system, job, values) + setup + script_template.substr(line_with(script_template, kShared));
 }
 
-// Complaints about this machine, as of its locale, do not begin with the file's name.
+// Only complaints about the script begin with its file's name; others are about this machine, such as its locale.
 void check_script(const std::string& script) {
   constexpr std::size_t kLongest = 200;  // bytes of what bash says
-  const std::string bash = "/bin/bash";  // which the script names; only the job's machines need it
+  const std::string bash = "/bin/bash";  // the script names it; only the machines of the job need it
   if (!child::runnable(bash)) return;
   const child::Descriptor file = child::file_in_memory(script);
   const std::string name = "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(file.number());

@@ -56,7 +56,7 @@ std::string state_text(const BatchSystem& system, const std::string& state) {
   return known == system.states.end() ? lower(state) : (*known)[1];
 }
 
-// How many lines it is. An answer without it says nothing of jobs, not even that there are none.
+// The number of its lines. An answer without a header says nothing about jobs, not even that there are none.
 std::size_t header_of(const BatchSystem& system, const Words& lines) {
   const auto header = static_cast<std::size_t>(system.header);
   if (header == 0 || lines.empty()) return 0;

@@ -44,7 +44,7 @@ TEST(QueuedJob, SaysWhereItRunsOrWhyItWaits) {
   EXPECT_EQ(text_of({"12", "pending", "0:00", 2, "", ""}), "job 12: pending, 2 restarts");
 }
 
-// By the program printf.
+// The program printf answers in place of qstat.
 std::string failure_of_answer(const std::vector<std::string>& lines) {
   BatchSystem system = batch_systems()[1];
   system.list = {"printf", "%s\\n"};
