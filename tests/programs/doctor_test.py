@@ -3,9 +3,11 @@
 import os
 import re
 import shutil
+import signal
 import stat
+import subprocess
 
-from harness import ENVIRONMENT, EXAMPLES, ProgramTest, main, needs_mpi
+from harness import ENVIRONMENT, EXAMPLES, PROGRAMS, ProgramTest, main, needs_mpi, wait_until
 
 
 def plain(text):
@@ -69,6 +71,26 @@ echo "Welcome to $2"; exec sh -c "$3"
         self.assertRegex(printed, r"ok MARS \S+, mars-node [0-9a-f]{8} ")
         self.assertNotIn("a start", printed)
         self.assertEqual(list(self.folder.glob(".mars-doctor*")), [])
+
+    def test_machines_of_a_batch_job(self):
+        ssh = self.write("bin/ssh", "#!/bin/sh\necho 'ssh: Could not resolve hostname: Name or service not known' >&2; exit 255\n")
+        ssh.chmod(0o755)
+        printed = plain(self.doctor(code=1, PATH=f"{ssh.parent}:{os.environ['PATH']}", LSB_HOSTS="alpha alpha beta"))
+        self.assertIn("alpha: the name does not resolve", printed)
+        self.assertIn("beta: the name does not resolve", printed)
+
+    def test_a_signal_leaves_no_file(self):
+        ssh = self.write("bin/ssh", "#!/bin/sh\nexec sleep 60\n")
+        ssh.chmod(0o755)
+        self.write("hosts", "alpha\n")
+        for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
+            process = subprocess.Popen([PROGRAMS / "mars", "doctor", "--hostfile", "hosts"], cwd=self.folder,
+                                       stdout=subprocess.DEVNULL, env=dict(ENVIRONMENT, PATH=f"{ssh.parent}:{os.environ['PATH']}"))
+            self.addCleanup(process.kill)
+            wait_until(lambda: list(self.folder.glob(".mars-doctor*")), 30, "the file")
+            process.send_signal(number)
+            self.assertEqual(process.wait(), -number)
+            self.assertEqual(list(self.folder.glob(".mars-doctor*")), [])
 
     def test_other_machines_without_mpirun(self):
         for name in ["sh", "env"]:

@@ -232,7 +232,9 @@ class Starting(ProgramTest):
         nowhere, allocation = self.path_of_its_own(), {"SLURM_JOB_NUM_NODES": "4", "SLURMD_NODENAME": "n1"}
         render = ["render", TEAPOT, "-o", "out", "--frames", "0"]
         for words, more, says in [([*render, "--hostfile", others], {}, f"mpirun was not found, and {others} names other"),
-                                  (render, allocation, "the Slurm job has 4 machines (load the module of ")]:
+                                  (render, allocation, "the Slurm job has 4 machines (load the module of "),
+                                  (render, {"FLUX_JOB_NNODES": "3"}, "the Flux job has 3 machines (load the module of "),
+                                  (render, {"PBS_NODEFILE": "gone"}, "cannot be read from PBS_NODEFILE")]:
             self.fail_clearly(1, *words, says=says, env=dict(nowhere, **more))
             self.assertFalse((self.folder / "out").exists())
         nx = self.run_program("mars-nx", "run", "/bin/true", env=dict(nowhere, **allocation))

@@ -1,9 +1,12 @@
 #include "host/shell/doctor/cluster.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 
 #include "host/child/environment.h"
 #include "host/child/programs.h"
@@ -11,27 +14,41 @@
 #include "host/content/document/text.h"
 #include "host/shell/doctor/facts.h"
 #include "host/shell/doctor/round.h"
+#include "host/shell/launch/asked_machines.h"
 #include "host/shell/launch/between_jobs.h"
 #include "host/shell/launch/command.h"
-#include "host/shell/launch/hostfile.h"
 
 namespace mars::doctor {
 namespace {
 
 using Words = std::vector<std::string>;
 
-// A file in the folder that the machines should share, while they are asked.
+std::atomic<const char*> token_here{nullptr};
+static_assert(std::atomic<const char*>::is_always_lock_free);
+
+// The signal ends this process as soon as the handler returns.
+void remove_token(int signal) {
+  if (const char* const file = token_here) unlink(file);
+  raise(signal);
+}
+
+// A file in the folder that the machines should share, while they are asked. A signal that ends this process removes it
+// too.
 class Token {
  public:
   explicit Token(const std::string& folder) {
-    std::string name = folder + "/.mars-doctor-XXXXXX";
-    const int file = folder.empty() ? -1 : mkstemp(name.data());
-    if (file < 0) return;
-    close(file);
-    file_ = name;
+    if (folder.empty()) return;
+    file_ = folder + "/.mars-doctor-XXXXXX";
+    heed_signals();
+    const int file = mkstemp(file_.data());
+    if (file >= 0)
+      close(file);
+    else
+      leave();
   }
   ~Token() {
     if (!file_.empty()) unlink(file_.c_str());
+    leave();
   }
   Token(const Token&) = delete;
   Token& operator=(const Token&) = delete;
@@ -39,7 +56,29 @@ class Token {
   const std::string& file() const { return file_; }  // "": none can be written
 
  private:
+  static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+
+  // Ignored ones, as under nohup, stay ignored.
+  void heed_signals() {
+    token_here = file_.c_str();
+    struct sigaction action {};
+    action.sa_handler = remove_token;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    for (std::size_t i = 0; i < kSignals.size(); ++i) {
+      sigaction(kSignals[i], nullptr, &before_[i]);
+      if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &action, nullptr);
+    }
+  }
+
+  void leave() {
+    if (file_.empty()) return;
+    for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
+    token_here = nullptr;
+    file_.clear();
+  }
+
   std::string file_;
+  std::array<struct sigaction, 3> before_{};
 };
 
 // How machines are asked, as mpirun would start their ranks.
@@ -125,9 +164,10 @@ std::vector<Call> calls_for(const Way& way, const std::vector<launch::Slots>& ma
 }
 
 std::vector<launch::Slots> machines_of(const std::string& hostfile) {
-  if (!hostfile.empty()) return launch::read_hostfile(hostfile);
   const child::Environment environment = child::own_environment();
-  return launch::slurm_machines(environment, child::program_path(environment));
+  const std::vector<launch::Slots> named = launch::named_machines(hostfile, environment);
+  return !named.empty() || !hostfile.empty() ? named
+                                             : launch::slurm_machines(environment, child::program_path(environment));
 }
 
 }  // namespace

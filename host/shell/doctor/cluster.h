@@ -17,9 +17,9 @@ struct Cluster {
   std::string cut_off;                    // which machines do not reach each other; "": all that answered do
 };
 
-// The machines of the hostfile, or of the Slurm job. None where a rendering would use this machine alone. `folder`:
+// The machines of the hostfile, or of the batch job. None where a rendering would use this machine alone. `folder`:
 // that they should share, absolute; "": it is not asked for. `self`: the running program's own file, the same on all
-// machines. Throws Failure where the hostfile is wrong.
+// machines. Throws Failure as launch::named_machines does.
 std::optional<Cluster> look_at_machines(const std::string& hostfile, const std::string& folder,
                                         const std::filesystem::path& self);
 

@@ -1,5 +1,5 @@
 // `mars doctor`: looks the surroundings over, really starts a tiny job, and says what to do about each trouble;
-// with a hostfile or in a Slurm job on all machines, and between them.
+// with a hostfile or in a batch job on all machines, and between them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace mars::doctor {
 
 struct DoctorOptions {
   std::uint32_t nodes = 0;    // 0: as mars render without --nodes
-  std::string hostfile{};     // of the machines; "": those of the Slurm job, or this one
+  std::string hostfile{};     // of the machines; "": those of the batch job, or this one
   std::string folder{};       // that they should share; "": the current one
   bool this_machine = false;  // answers the doctor of another machine
   std::string own_name{};     // by which that doctor knows this machine; "": Slurm's or its own

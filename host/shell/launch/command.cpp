@@ -175,13 +175,9 @@ std::vector<std::uint32_t> tasks_of_machines(const std::string& tasks_per_node) 
 
 namespace {
 
-std::vector<Slots> machines_of(const options::RenderOptions& options) {
-  return options.hostfile.empty() ? std::vector<Slots>() : read_hostfile(options.hostfile);
-}
-
 // Of the hostfile or the batch system; 0: there is none.
 std::uint32_t slots_of(const options::RenderOptions& options, const Surroundings& surroundings) {
-  const std::vector<Slots> machines = machines_of(options);
+  const std::vector<Slots> machines = named_machines(options.hostfile, surroundings.environment);
   if (machines.empty()) return surroundings.tasks;
   return std::accumulate(machines.begin(), machines.end(), 0u,
                          [](std::uint32_t sum, const Slots& slots) { return sum + slots.count; });
@@ -190,17 +186,18 @@ std::uint32_t slots_of(const options::RenderOptions& options, const Surroundings
 }  // namespace
 
 std::uint32_t default_nodes(const options::RenderOptions& options, const Surroundings& surroundings) {
-  const std::uint32_t tasks = slots_of(options, surroundings);
-  if (tasks == 0 || options.backend == options::Backend::threads || options.backend == options::Backend::simulated)
+  if (options.backend == options::Backend::threads || options.backend == options::Backend::simulated)
     return surroundings.processors;
-  return std::max(tasks, 2u) - 1;
+  const std::uint32_t tasks = slots_of(options, surroundings);
+  return tasks == 0 ? surroundings.processors : std::max(tasks, 2u) - 1;
 }
 
 std::uint32_t cores_in_use(const options::RenderOptions& options, const Surroundings& surroundings) {
   if (options.backend != options::Backend::mpi) return surroundings.cores;
   if (slots_of(options, surroundings) == 0) return surroundings.cores;
   std::uint32_t cores = 0;
-  for (const Slots& machine : machines_of(options)) cores += is_here(machine.host) ? surroundings.cores : machine.count;
+  for (const Slots& machine : named_machines(options.hostfile, surroundings.environment))
+    cores += is_here(machine.host) ? surroundings.cores : machine.count;
   return cores != 0 ? cores : surroundings.tasks;
 }
 
@@ -302,8 +299,10 @@ child::Command mpi_start(const options::RenderOptions& options, const Programs& 
     throw Failure("the limit of " + std::to_string(surroundings.address_limit >> 10) +
                       " kB of addresses a process is too small for MPI",
                   "ulimit -v", "raise it to " + std::to_string(kLeastForMpi >> 10) + " or more: ulimit -v unlimited");
-  child::Command command = programs.mpi == Mpi::mpich ? mpich_start(options, programs, surroundings)
-                                                      : open_mpi_start(options, programs, surroundings);
+  Surroundings known = surroundings;
+  if (known.machines.empty() && options.hostfile.empty()) known.machines = named_machines("", surroundings.environment);
+  child::Command command =
+      programs.mpi == Mpi::mpich ? mpich_start(options, programs, known) : open_mpi_start(options, programs, known);
   // After sbatch --export=NONE srun, by which mpirun reaches other machines, would start its helpers without PATH.
   if (surroundings.environment.value("SLURM_EXPORT_ENV")) command.environment.emplace_back("SLURM_EXPORT_ENV", "ALL");
   return command;

@@ -88,7 +88,7 @@ options::Backend choose_backend(const options::RenderOptions& options, const Pro
                                 const child::Environment& environment);
 
 // mpirun as it begins wherever it starts options.nodes nodes and a host: the words before the programs'. Throws Failure
-// where the memory limit is too small for any MPI.
+// where the memory limit is too small for any MPI, and as named_machines() does.
 child::Command mpi_start(const options::RenderOptions& options, const Programs& programs,
                          const Surroundings& surroundings);
 

@@ -14,7 +14,6 @@
 namespace mars::launch {
 namespace {
 
-constexpr std::uint32_t kMostSlots = 999999;
 constexpr std::size_t kLongestName = 255;     // bytes
 constexpr std::uintmax_t kLargest = 1 << 26;  // bytes
 constexpr const char* kForm = "write a line a host, like: n1 slots=4";

@@ -1,7 +1,7 @@
 #include "host/shell/launch/starting.h"
 
 #include "host/child/environment.h"
-#include "host/shell/launch/hostfile.h"
+#include "host/shell/launch/asked_machines.h"
 
 namespace mars::launch {
 
@@ -27,13 +27,16 @@ child::Command command_for(const options::RenderOptions& options, const Starting
 
 std::vector<Slots> machines_of(const options::RenderOptions& options, const Starting& starting) {
   if (options.backend != options::Backend::mpi) return {};
-  if (!options.hostfile.empty()) return read_hostfile(options.hostfile);
-  return slurm_machines(starting.surroundings.environment, starting.path);
+  const child::Environment& environment = starting.surroundings.environment;
+  const std::vector<Slots> named = named_machines(options.hostfile, environment);
+  return !named.empty() || !options.hostfile.empty() ? named : slurm_machines(environment, starting.path);
 }
 
 Question question_of(const options::RenderOptions& options, const Starting& starting) {
   if (starting.surroundings.tasks != 0) return Question::slurm;
-  return options.hostfile.empty() ? Question::nobody : Question::ssh;
+  if (options.backend != options::Backend::mpi) return Question::nobody;
+  const bool named = !named_machines(options.hostfile, starting.surroundings.environment).empty();
+  return named ? Question::ssh : Question::nobody;
 }
 
 }  // namespace mars::launch

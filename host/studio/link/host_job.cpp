@@ -12,9 +12,9 @@
 #include "hal/failure/failure.h"
 #include "host/child/environment.h"
 #include "host/child/standard_streams.h"
+#include "host/shell/launch/asked_machines.h"
 #include "host/shell/launch/diagnosis.h"
 #include "host/shell/launch/display.h"
-#include "host/shell/launch/hostfile.h"
 #include "host/shell/launch/job.h"
 
 namespace mars::studio {
@@ -67,8 +67,10 @@ HostStart prepare_host(options::RenderOptions options, const std::filesystem::pa
   if (start.options.backend == options::Backend::simulated)
     throw Failure("simulated nodes draw no pictures of a studio", "", "use --backend mpi or threads");
   start.surroundings = launch::look_around(path);
-  if (!start.options.hostfile.empty() && start.options.backend == options::Backend::mpi)
-    start.surroundings.machines = machines_from_here(launch::read_hostfile(start.options.hostfile), this_machine());
+  std::vector<launch::Slots> named;
+  if (start.options.backend == options::Backend::mpi)
+    named = launch::named_machines(start.options.hostfile, environment);
+  if (!named.empty()) start.surroundings.machines = machines_from_here(std::move(named), this_machine());
   if (start.options.nodes == 0) start.options.nodes = default_nodes(start);
   options::check_nodes(start.options, launch::cores_in_use(start.options, start.surroundings));
   return start;

@@ -79,7 +79,7 @@ TEST(Command, SrunHandsTheEnvironmentOn) {
 TEST(Command, OnlyOnThisMachineDoesItKeepToTheLoopbackInterface) {
   const std::string held = "LD_PRELOAD=/opt/mars-loopback.so";
   EXPECT_EQ(mpi_command(film(3), all_programs(), alone(8)).open_mpi, child::OpenMpi::on_this_machine);
-  for (const Surroundings& several : {batch_job(8), alone(8, {"PBS_NODEFILE=/var/nodes"})}) {
+  for (const Surroundings& several : {batch_job(8), alone(8, {"LSB_HOSTS=n1"})}) {
     EXPECT_FALSE(document::holds(line(3, several), held));
     EXPECT_FALSE(document::holds(line(3, several), "OMPI_MCA_btl="));
     EXPECT_EQ(mpi_command(film(3), all_programs(), several).open_mpi, child::OpenMpi::on_several);
@@ -130,12 +130,29 @@ TEST(Command, AHostfileIsPassedOn) {
   EXPECT_TRUE(document::holds(text, "OMPI_MCA_oob_tcp_keepalive_time=10"));
 }
 
+TEST(Command, MachinesOfABatchJobArePassedOn) {
+  const test::TemporaryFolder folder;
+  const Surroundings job = alone(8, {"LSB_HOSTS=n1 n1 n2 n2 n2"});
+  EXPECT_TRUE(document::holds(line(4, job), "--bind-to none --host n1:2,n2:3 --oversubscribe -n 1"));
+  options::RenderOptions options = film(0);
+  options.backend = options::Backend::mpi;
+  EXPECT_EQ(default_nodes(options, job), 4u);
+  EXPECT_EQ(cores_in_use(options, job), 5u);
+  options.hostfile = write_hostfile(folder, "n3\n").string();
+  EXPECT_FALSE(document::holds(shell_text(mpi_command(options, all_programs(), job)), "--host n1"));
+  const Surroundings wrong = alone(8, {"PBS_NODEFILE=" + (folder / "gone").string()});
+  EXPECT_TRUE(document::holds(document::failure_of([&] { line(4, wrong); }), "PBS_NODEFILE"));
+  options.hostfile.clear();
+  options.backend = options::Backend::threads;
+  EXPECT_EQ(default_nodes(options, wrong), 16u) << "threads need no list";
+}
+
 TEST(Command, FoldersOfLibrariesAreHandedOn) {
   const std::string passed = "OMPI_MCA_plm_rsh_pass_libpath=/opt/a/lib:/opt/b/lib ";
   const std::string libraries = "LD_LIBRARY_PATH=/opt/a/lib:/opt/b/lib";
-  EXPECT_TRUE(document::holds(line(3, alone(8, {libraries, "PBS_NODEFILE=/var/nodes"})), passed));
+  EXPECT_TRUE(document::holds(line(3, alone(8, {libraries, "LSB_HOSTS=n1"})), passed));
   EXPECT_FALSE(document::holds(line(3, alone(8, {libraries})), "pass_libpath")) << "on this machine all take them over";
-  EXPECT_FALSE(document::holds(line(3, alone(8, {"LD_LIBRARY_PATH=/a b;c", "PBS_NODEFILE=/var/nodes"})), "libpath"));
+  EXPECT_FALSE(document::holds(line(3, alone(8, {"LD_LIBRARY_PATH=/a b;c", "LSB_HOSTS=n1"})), "libpath"));
 }
 
 TEST(Command, MpichHasWordsOfItsOwn) {
