@@ -73,7 +73,8 @@ echo "Welcome to $2"; exec sh -c "$3"
         self.assertEqual(list(self.folder.glob(".mars-doctor*")), [])
 
     def test_machines_of_a_batch_job(self):
-        ssh = self.write("bin/ssh", "#!/bin/sh\necho 'ssh: Could not resolve hostname: Name or service not known' >&2; exit 255\n")
+        ssh = self.write("bin/ssh", "#!/bin/sh\n"
+                         "echo 'ssh: Could not resolve hostname: Name or service not known' >&2; exit 255\n")
         ssh.chmod(0o755)
         printed = plain(self.doctor(code=1, PATH=f"{ssh.parent}:{os.environ['PATH']}", LSB_HOSTS="alpha alpha beta"))
         self.assertIn("alpha: the name does not resolve", printed)
@@ -85,7 +86,9 @@ echo "Welcome to $2"; exec sh -c "$3"
         self.write("hosts", "alpha\n")
         for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
             process = subprocess.Popen([PROGRAMS / "mars", "doctor", "--hostfile", "hosts"], cwd=self.folder,
-                                       stdout=subprocess.DEVNULL, env=dict(ENVIRONMENT, PATH=f"{ssh.parent}:{os.environ['PATH']}"))
+                                       env=dict(ENVIRONMENT, PATH=f"{ssh.parent}:{os.environ['PATH']}"),
+                                       stdout=subprocess.DEVNULL,
+                                       preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # ignored under nohup
             self.addCleanup(process.kill)
             wait_until(lambda: list(self.folder.glob(".mars-doctor*")), 30, "the file")
             process.send_signal(number)

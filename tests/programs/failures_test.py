@@ -233,7 +233,7 @@ class Starting(ProgramTest):
         render = ["render", TEAPOT, "-o", "out", "--frames", "0"]
         for words, more, says in [([*render, "--hostfile", others], {}, f"mpirun was not found, and {others} names other"),
                                   (render, allocation, "the Slurm job has 4 machines (load the module of "),
-                                  (render, {"FLUX_JOB_NNODES": "3"}, "the Flux job has 3 machines (load the module of "),
+                                  (render, {"FLUX_JOB_NNODES": "3"}, "the Flux job has 3 machines (load the module "),
                                   (render, {"PBS_NODEFILE": "gone"}, "cannot be read from PBS_NODEFILE")]:
             self.fail_clearly(1, *words, says=says, env=dict(nowhere, **more))
             self.assertFalse((self.folder / "out").exists())
