@@ -11,8 +11,7 @@
 namespace mars::launch {
 
 // "the Slurm job has 4 machines", "hosts names other machines"; "" where this machine is enough, as for a batch job of
-// one machine. `hostfile`: "" where there is none. Throws Failure as
-// named_machines does.
+// one machine. `hostfile`: "" where there is none. Throws Failure as named_machines does.
 std::string asked_machines(const std::string& hostfile, const child::Environment& environment);
 
 // Those of the hostfile; else those of a job of PBS, Grid Engine or LSF that has several, with their slots: an mpirun
