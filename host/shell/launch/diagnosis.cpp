@@ -90,7 +90,7 @@ Failure with_machine(const Failure& known, const std::string& words) {
   return Failure(problem, "machine " + machine, known.remedy);
 }
 
-// What keeps others from advising does not hide the failure.
+// Advice that fails does not hide the failure itself.
 std::string text_of(const Advice& advice) try { return advice(); } catch (const child::Stopped&) {
   throw;
 } catch (const std::exception& reason) {
