@@ -150,4 +150,17 @@ void fail_if_stopped(const Child& child) {
   if (child.passed_on() != 0) throw Stopped("stopped by " + std::string(strsignal(child.passed_on())), "", "");
 }
 
+TimedEnding wait_at_most(Child& child, std::chrono::milliseconds longest,
+                         const std::function<void(const std::string& line)>& output,
+                         const std::function<void(const std::string& line)>& error) {
+  TimedEnding timed;
+  const auto deadline = std::chrono::steady_clock::now() + longest;
+  timed.ending = child.wait({output, error, [&] {
+                               timed.late = std::chrono::steady_clock::now() > deadline;
+                               if (timed.late) child.stop();
+                             }});
+  fail_if_stopped(child);
+  return timed;
+}
+
 }  // namespace mars::child

@@ -83,4 +83,14 @@ class Stopped : public Failure {
 // Throws Stopped where that is so.
 void fail_if_stopped(const Child& child);
 
+struct TimedEnding {
+  Ending ending;
+  bool late = false;  // it had not ended in time, and was stopped
+};
+
+// Waits as Child::wait does, but stops a child that has not ended after `longest`. Throws Stopped as fail_if_stopped.
+TimedEnding wait_at_most(Child& child, std::chrono::milliseconds longest,
+                         const std::function<void(const std::string& line)>& output,
+                         const std::function<void(const std::string& line)>& error);
+
 }  // namespace mars::child

@@ -20,6 +20,9 @@ std::string in_quotes(std::string_view name);
 // The beginning of a foreign file's bytes; '?' stands for those that are not printable ASCII.
 std::string printable(std::string_view bytes, std::size_t longest = 60);
 
+// Bytes that are no UTF-8, as older programs write them, become U+FFFD.
+std::string in_utf8(const std::string& text);
+
 // "hip, knee, ankle".
 template <typename Texts>
 std::string joined(const Texts& texts, std::string_view separator = ", ") {

@@ -138,7 +138,7 @@ Answer read_answer(std::string_view answer) {
 void check_joint(const std::string& joint, const std::string& given, const std::filesystem::path& from) {
   const bool plain = !joint.empty() && joint.size() <= kLongestJointName && joint.find('/') == std::string::npos &&
                      std::none_of(joint.begin(), joint.end(), [](unsigned char c) { return std::iscntrl(c); }) &&
-                     in_utf8(joint) == joint;
+                     document::in_utf8(joint) == joint;
   if (plain) return;
   const std::string name = "'" + document::printable(joint) + "'";
   constexpr const char* kNames = "of 1 to 90 bytes of UTF-8, without '/' and control characters";

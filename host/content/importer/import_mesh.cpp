@@ -80,8 +80,8 @@ MeshFile read_mesh(const ImportOptions& options, FileKind kind, const Stance& st
   const bool looks_ahead = options.front.empty() && rest.empty();
   MeshFile file = read_mesh_file(options.from, kind,
                                  {stance.upright, options.size, options.crease, options.joint, set_material(options),
-                                  set_limb(options), in_utf8(options.to.stem().string()) + "-images", std::move(rest),
-                                  looks_ahead});
+                                  set_limb(options), document::in_utf8(options.to.stem().string()) + "-images",
+                                  std::move(rest), looks_ahead});
   for (const std::filesystem::path& companion : file.companions) document::refuse_same_file(companion, options.to);
   return file;
 }

@@ -2,14 +2,14 @@
 
 #include <cctype>
 
-#include "host/content/document/json_file.h"
+#include "host/content/document/text.h"
 
 namespace mars::importer {
 namespace {
 
 // A name of a model for a name of any bytes.
 std::string plain_name(const std::string& given) {
-  std::string name = in_utf8(given);
+  std::string name = document::in_utf8(given);
   for (char& byte : name)
     if (byte == '/' || std::iscntrl(static_cast<unsigned char>(byte))) byte = '-';
   if (name.size() > kLongestJointName) {
@@ -21,11 +21,6 @@ std::string plain_name(const std::string& given) {
 }
 
 }  // namespace
-
-std::string in_utf8(const std::string& text) {
-  using document::Json;
-  return Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
-}
 
 std::string JointNames::unused(const std::string& wanted) {
   const auto [known, is_new] = names_.try_emplace(plain_name(wanted), 2);

@@ -9,9 +9,6 @@ namespace mars::importer {
 
 inline constexpr std::size_t kLongestJointName = 90;  // of a name's 100 bytes: numbers may follow
 
-// Bytes that are no UTF-8, as older programs write them, become U+FFFD.
-std::string in_utf8(const std::string& text);
-
 class JointNames {
  public:
   // A name that a model can have and that this has not given before: of at most 90 bytes, in UTF-8, numbered where it

@@ -12,17 +12,11 @@ Answer ask(const std::string& name, std::vector<std::string> words, std::chrono:
   if (!found) throw Failure(words.front() + " was not found", "", "use a machine from which jobs are submitted");
   words.front() = found->string();
   Answer answer;
-  bool late = false;
-  const auto deadline = std::chrono::steady_clock::now() + longest;
   child::Child child(child::Command{{}, words});
-  answer.ending =
-      child.wait({[&](const std::string& line) { answer.lines.push_back(line); },
-                  [&](const std::string& line) { answer.complaints += (answer.complaints.empty() ? "" : "; ") + line; },
-                  [&] {
-                    late = std::chrono::steady_clock::now() > deadline;
-                    if (late) child.stop();
-                  }});
-  child::fail_if_stopped(child);
+  const auto [ending, late] = child::wait_at_most(
+      child, longest, [&](const std::string& line) { answer.lines.push_back(line); },
+      [&](const std::string& line) { answer.complaints += (answer.complaints.empty() ? "" : "; ") + line; });
+  answer.ending = ending;
   // An answer counts though a process that the program has left behind held the output open.
   if (late && (!answer.ending.well() || answer.lines.empty()))
     throw NoAnswer(

@@ -50,10 +50,8 @@ ordered_json list_of(const Items& items) {
 
 // Folders' names need not be UTF-8, metrics must be.
 std::string label_of(const std::string& folder) {
-  const ordered_json name = std::filesystem::absolute(folder).lexically_normal().string();
-  const std::string whole = name.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string text;
-  for (const char letter : ordered_json::parse(whole).get<std::string>()) {
+  for (const char letter : document::in_utf8(std::filesystem::absolute(folder).lexically_normal().string())) {
     if (letter == '\\' || letter == '"') text += '\\';
     text += letter == '\n' ? "\\n" : std::string(1, letter);
   }

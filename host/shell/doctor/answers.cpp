@@ -35,6 +35,12 @@ constexpr std::array kSilences = {
     Silence{"Connection refused", "ssh is refused: no sshd listens", "start sshd there"},
 };
 
+std::string last_of(const std::string& words) {
+  const std::string line = launch::on_one_line(words);
+  const std::size_t skipped = line.size() - std::min(line.size(), kShownWords);
+  return skipped == 0 ? line : "..." + line.substr(skipped);
+}
+
 Finding silence_by_words(const std::string& words, const std::string& self) {
   const auto trouble = [](const std::string& found, const std::string& remedy) {
     return Finding{State::trouble, "machines", found, remedy};
@@ -144,11 +150,17 @@ std::vector<Finding> check_together(const Answers& answers) {
 }
 
 Finding check_silence(const std::vector<std::string>& hosts, const std::string& words, const std::string& self) {
-  const std::string line = launch::on_one_line(words);
-  const std::size_t skipped = line.size() - std::min(line.size(), kShownWords);
-  Finding finding = silence_by_words(skipped == 0 ? line : "..." + line.substr(skipped), self);
+  Finding finding = silence_by_words(last_of(words), self);
   finding.found = host_list(hosts) + ": " + finding.found;
   return finding;
+}
+
+Finding check_half_answer(const std::vector<std::string>& hosts, const std::string& words) {
+  const std::string last = last_of(words);
+  return {State::trouble, "machines",
+          host_list(hosts) + ": answered, but did not say which others can be reached from there" +
+              (last.empty() ? "" : "; the last words: " + last),
+          "mars doctor there says more"};
 }
 
 }  // namespace mars::doctor

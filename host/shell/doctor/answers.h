@@ -48,4 +48,7 @@ std::vector<Finding> check_together(const Answers& answers);
 // About machines that did not answer, by the last words of the command that asked them. `self`: MARS's program there.
 Finding check_silence(const std::vector<std::string>& hosts, const std::string& words, const std::string& self);
 
+// About machines that answered, and then did not say which others they reach; with the last words, too.
+Finding check_half_answer(const std::vector<std::string>& hosts, const std::string& words);
+
 }  // namespace mars::doctor

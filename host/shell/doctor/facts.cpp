@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 // where a signal to us stops it.
 std::string answer(const std::vector<std::string>& words) {
   constexpr std::chrono::seconds kLongest{10};
-  const auto deadline = std::chrono::steady_clock::now() + kLongest;
   std::string text;
   const auto take = [&](const std::string& line) { text += line + "\n"; };
   std::optional<child::Child> child;
@@ -34,10 +33,7 @@ std::string answer(const std::vector<std::string>& words) {
   } catch (const Failure&) {
     return "";
   }
-  child->wait({take, take, [&] {
-                 if (std::chrono::steady_clock::now() > deadline) child->stop();
-               }});
-  child::fail_if_stopped(*child);
+  child::wait_at_most(*child, kLongest, take, take);
   return text;
 }
 

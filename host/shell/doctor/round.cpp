@@ -78,7 +78,7 @@ class Session {
   std::string words_;  // lines that are no answers
 };
 
-// Until none has anything more to say, or the time is over.
+// Reads answers until all sessions have said all, or the time is over.
 void hear(std::list<Session>& sessions, Answers& answers, std::chrono::milliseconds longest,
           const std::function<bool(const Session&)>& has_said_all) {
   const auto deadline = std::chrono::steady_clock::now() + longest;
@@ -110,10 +110,11 @@ Round go_round(const std::vector<Call>& calls, const std::string& self, const Ro
   });
   for (const Session& each : sessions) each.say_nothing_more();
   for (const Session& each : sessions) {
-    std::vector<std::string> silent;
+    std::vector<std::string> silent, unmet;
     for (const std::string& host : each.hosts())
-      if (!answers.met.contains(host)) silent.push_back(host);
+      if (!answers.met.contains(host)) (answers.has_door(host) ? unmet : silent).push_back(host);
     if (!silent.empty()) round.silences.push_back(check_silence(silent, each.words(), self));
+    if (!unmet.empty()) round.silences.push_back(check_half_answer(unmet, each.words()));
   }
   hear(sessions, answers, kEnding, [](const Session&) { return false; });
   return round;

@@ -10,8 +10,6 @@
 namespace mars::launch {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::chrono::seconds kLongestAnswer{10};
 
 // All machines at once: each answer is a line. The words: seconds of the pause, ssh, machines.
@@ -24,16 +22,11 @@ wait)";
 // The words: seconds of the pause, sinfo, the machines between commas.
 constexpr const char* kAskSlurm = R"(sleep "$1" & "$2" --noheader --Node --nodes="$3" --format="%N %T"; wait)";
 
-// What it writes, line by line, until it ends or the longest time is over.
-void run_for(const std::vector<std::string>& words, Clock::duration longest,
+// Passes on its output line by line, until it ends or the longest time is over.
+void run_for(const std::vector<std::string>& words, std::chrono::milliseconds longest,
              const std::function<void(const std::string&)>& line) {
-  const auto deadline = Clock::now() + longest;
   child::Child child({{}, words});
-  child.wait({line, [](const std::string&) {},
-              [&] {
-                if (Clock::now() > deadline) child.stop();
-              }});
-  child::fail_if_stopped(child);
+  child::wait_at_most(child, longest, line, [](const std::string&) {});
 }
 
 std::vector<std::string> words_for(const Pause& pause, const std::string& path) {

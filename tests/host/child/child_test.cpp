@@ -71,6 +71,18 @@ TEST(Child, MayWriteMuch) {
 
 TEST(Child, KilledIsToldBySignal) { EXPECT_EQ(run("kill -9 $$").ending.signal, SIGKILL); }
 
+TEST(Child, IsStoppedWhenItsTimeIsOver) {
+  const auto late = [](const std::string& script, std::chrono::milliseconds longest) {
+    Child child({{}, {"/bin/sh", "-c", script}});
+    const TimedEnding timed = wait_at_most(
+        child, longest, [](const std::string&) {}, [](const std::string&) {});
+    EXPECT_EQ(timed.late, timed.ending.signal == SIGTERM);
+    return timed.late;
+  };
+  EXPECT_TRUE(late("exec sleep 300", std::chrono::milliseconds(100)));
+  EXPECT_FALSE(late("exit 3", std::chrono::minutes(5)));
+}
+
 TEST(Child, AMissingProgramIsAFailure) {
   EXPECT_EQ(document::failure_of([] {
               Child({{}, {"/no/such/program"}});

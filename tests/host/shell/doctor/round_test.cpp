@@ -38,7 +38,9 @@ TEST(Round, AllAreGivenTheDoorsOfThoseThatAnswered) {
   const std::string script = door("n1") + "read doors; echo \"got $doors\"";
   const Round round = go_round({call("n1", script), call("n2", "exit 1")}, "mars", kPatient);
   ASSERT_EQ(round.silences.size(), 2u);
-  EXPECT_EQ(round.silences[0].found, "n1: did not answer; the last words: got n1 1 127.0.0.1");
+  EXPECT_EQ(round.silences[0].found,
+            "n1: answered, but did not say which others can be reached from there; the last "
+            "words: got n1 1 127.0.0.1");
 }
 
 TEST(Round, SilentMachinesAreNamedWithTheirReasons) {
