@@ -112,7 +112,7 @@ std::string head_text(const BatchSystem& system, const BatchJob& job, const Valu
   return text;
 }
 
-// What the script would be called with.
+// The words that the script would be called with.
 std::string words_text(const BatchJob& job) {
   Words words = quoted_words(job.words);
   std::string text = "export PATH=" + document::shell_word(job.programs.string()) + ":$PATH\n" +
@@ -120,7 +120,7 @@ std::string words_text(const BatchJob& job) {
   if (job.parts.size() > 1) {
     Words parts;
     for (const film::FrameSet& part : job.parts) parts.push_back(part.text());
-    text += "# Of each task of the array.\nframes=(" + document::joined(parts, " ") + ")\n";
+    text += "# The frames of each task of the array.\nframes=(" + document::joined(parts, " ") + ")\n";
     words.insert(words.end(), {"--frames", "\"${frames[SLURM_ARRAY_TASK_ID]}\""});
   } else if (job.parts.size() == 1) {
     words.insert(words.end(), {"--frames", job.parts.front().text()});
